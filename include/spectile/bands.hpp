@@ -1,0 +1,69 @@
+// Bands: the wavelength intervals over which a sampled spectrum holds averages.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <spectile/result.hpp>
+
+namespace spectile {
+
+/// One wavelength interval. Units: nm; lower < centre < upper.
+struct Band {
+  double lower_nm = 0;
+  double centre_nm = 0;
+  double upper_nm = 0;
+  double width_nm() const noexcept { return upper_nm - lower_nm; }
+  friend bool operator==(const Band&, const Band&) = default;
+};
+
+/// An immutable list of bands in ascending order that do not overlap; cheap to copy.
+/// A sampled spectrum's value in a band is the average of the spectrum over the band.
+class Bands {
+ public:
+  /// 400 to 700 nm in 60 bands of 5 nm, the field's usual choice.
+  Bands();
+
+  /// Uniform bands of `step_nm` from `first_nm` to `last_nm`.
+  /// Units: nm. The range must hold a whole number of steps (to 1e-6 of a step).
+  /// Errors: kBadArgument for edges not finite or not positive, an empty range, a step that does not divide it,
+  /// or more than kMaxBands bands.
+  static Result<Bands> uniform(double first_nm, double last_nm, double step_nm);
+
+  /// Any list of bands, in ascending order, gaps allowed.
+  /// Errors: kBadArgument for an empty list, more than kMaxBands, unordered or overlapping bands.
+  static Result<Bands> from_list(std::vector<Band> bands);
+
+  /// Bands around given centres: edges halfway between neighbours, the outer ones symmetric.
+  /// A single centre gets a band of 1 nm.
+  /// Errors: kBadArgument as for from_list.
+  static Result<Bands> from_centres(std::span<const double> centres_nm);
+
+  /// Reads "FIRST:LAST:STEP" (nm), or a comma-separated list of centres.
+  /// Errors: kBadArgument with the text quoted.
+  static Result<Bands> parse(std::string_view text);
+
+  static constexpr std::size_t kMaxBands = 4096;
+
+  std::size_t count() const noexcept { return bands_->size(); }
+  const Band& operator[](std::size_t i) const noexcept { return (*bands_)[i]; }
+  std::span<const Band> list() const noexcept { return *bands_; }
+
+  /// "400:700:5", or for other lists the count and the range: "36 bands from 375 to 735 nm".
+  std::string description() const;
+
+  /// Equal when every edge and centre is.
+  friend bool operator==(const Bands& a, const Bands& b) noexcept {
+    return a.bands_ == b.bands_ || *a.bands_ == *b.bands_;
+  }
+
+ private:
+  explicit Bands(std::vector<Band> bands);
+  std::shared_ptr<const std::vector<Band>> bands_;
+};
+
+}  // namespace spectile

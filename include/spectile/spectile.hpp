@@ -1,0 +1,11 @@
+// Everything public.
+#pragma once
+
+#include <spectile/arithmetic.hpp>
+#include <spectile/bands.hpp>
+#include <spectile/colorimetry.hpp>
+#include <spectile/isa.hpp>
+#include <spectile/measured_spectrum.hpp>
+#include <spectile/result.hpp>
+#include <spectile/sampled_spectra.hpp>
+#include <spectile/upsample.hpp>

@@ -1,0 +1,138 @@
+// Element-wise arithmetic over whole batches, and reductions of a lane over its bands.
+#pragma once
+
+#include "kernels/simd.hpp"
+
+namespace spectile::kernels {
+namespace {
+
+/// dst[i] = f(a[i]) in vectors, four at a time so that loads and stores overlap.
+template <class F>
+inline void map1(float* dst, const float* a, std::size_t n, F f) noexcept {
+  for (std::size_t i = 0; i < n; i += 4 * kWidth) {
+    for (std::size_t j = i; j < i + 4 * kWidth; j += kWidth) store(dst + j, f(load(a + j)));
+  }
+}
+
+template <class F>
+inline void map2(float* dst, const float* a, const float* b, std::size_t n, F f) noexcept {
+  for (std::size_t i = 0; i < n; i += 4 * kWidth) {
+    for (std::size_t j = i; j < i + 4 * kWidth; j += kWidth) store(dst + j, f(load(a + j), load(b + j)));
+  }
+}
+
+void add(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  map2(dst, a, b, n, [](F32 x, F32 y) { return x + y; });
+}
+
+void subtract(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  map2(dst, a, b, n, [](F32 x, F32 y) { return x - y; });
+}
+
+void multiply(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  map2(dst, a, b, n, [](F32 x, F32 y) { return x * y; });
+}
+
+void divide(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  map2(dst, a, b, n, [](F32 x, F32 y) { return x / y; });
+}
+
+void divide_or_zero(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  const F32 zero(0.0F);
+  map2(dst, a, b, n, [zero](F32 x, F32 y) { return xsimd::select(y == zero, zero, x / y); });
+}
+
+void negate(float* dst, const float* a, std::size_t n) noexcept {
+  const U32 sign_bit(0x80000000U);
+  map1(dst, a, n, [sign_bit](F32 x) { return bits_as<float>(bits_as<std::uint32_t>(x) ^ sign_bit); });
+}
+
+void scale(float* dst, const float* a, float s, std::size_t n) noexcept {
+  const F32 factor(s);
+  map1(dst, a, n, [factor](F32 x) { return x * factor; });
+}
+
+void multiply_add(float* dst, const float* a, const float* b, const float* c, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; i += kWidth) store(dst + i, load(a + i) * load(b + i) + load(c + i));
+}
+
+void lerp(float* dst, const float* a, const float* b, float t, std::size_t n) noexcept {
+  const F32 weight_b(t);
+  const F32 weight_a(1.0F - t);
+  map2(dst, a, b, n, [=](F32 x, F32 y) { return weight_a * x + weight_b * y; });
+}
+
+void sqrt(float* dst, const float* a, std::size_t n) noexcept {
+  map1(dst, a, n, [](F32 x) { return xsimd::sqrt(x); });
+}
+
+void clamp(float* dst, const float* a, float lo, float hi, std::size_t n) noexcept {
+  const F32 low(lo);
+  const F32 high(hi);
+  map1(dst, a, n, [=](F32 x) { return xsimd::select(x < low, low, xsimd::select(high < x, high, x)); });
+}
+
+/// Folds each lane's samples with `f`, from `start`.
+template <class F>
+inline void fold_bands(float* dst, const float* spectra, std::size_t bands, std::size_t blocks, float start,
+                       F f) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    F32 state[kLanes / kWidth];
+    for (auto& s : state) s = F32(start);
+    for (std::size_t band = 0; band < bands; ++band, spectra += kLanes) {
+      for (std::size_t j = 0; j < kLanes / kWidth; ++j) state[j] = f(state[j], load(spectra + j * kWidth));
+    }
+    for (std::size_t j = 0; j < kLanes / kWidth; ++j) store(dst + block * kLanes + j * kWidth, state[j]);
+  }
+}
+
+void minimum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  fold_bands(dst, spectra, bands, blocks, __builtin_inff(),
+             [](F32 least, F32 s) { return xsimd::select(s < least, s, least); });
+}
+
+void maximum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  fold_bands(dst, spectra, bands, blocks, -__builtin_inff(),
+             [](F32 most, F32 s) { return xsimd::select(most < s, s, most); });
+}
+
+void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  const F32 zero(0.0F);
+  for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
+    std::uint64_t black = ~std::uint64_t{0};
+    for (std::size_t band = 0; band < bands && black != 0; ++band) {
+      for (std::size_t j = 0; j < kLanes; j += kWidth) {
+        black &= ~(lane_bits(load(spectra + band * kLanes + j) != zero) << j);
+      }
+    }
+    mask[block] = black;
+  }
+}
+
+void nan_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
+    std::uint64_t found = 0;
+    for (std::size_t i = 0; i < bands * kLanes; i += kWidth) {
+      const F32 s = load(spectra + i);
+      found |= lane_bits(s != s) << (i % kLanes);
+    }
+    mask[block] = found;
+  }
+}
+
+void equal_mask(std::uint64_t* mask, const float* a, const float* b, std::size_t bands,
+                std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block, a += bands * kLanes, b += bands * kLanes) {
+    std::uint64_t equal = ~std::uint64_t{0};
+    for (std::size_t band = 0; band < bands && equal != 0; ++band) {
+      for (std::size_t j = 0; j < kLanes; j += kWidth) {
+        const std::size_t i = band * kLanes + j;
+        equal &= ~(lane_bits(load(a + i) != load(b + i)) << j);
+      }
+    }
+    mask[block] = equal;
+  }
+}
+
+}  // namespace
+}  // namespace spectile::kernels

@@ -1,0 +1,113 @@
+// Smits upsampling without branches: two table permutes and three multiply-adds a band.
+#pragma once
+
+#include "kernels/simd.hpp"
+
+namespace spectile::kernels {
+namespace {
+
+/// The mixture that makes one vector of pixels: three weights, and which secondary and primary two of them go to.
+struct Mixture {
+  F32 white, second, first;
+  Index second_index, first_index;
+};
+
+inline Mixture mixture(F32 r, F32 g, F32 b) noexcept {
+  // Ordered comparisons with the operands that the reference uses, so that ties and NaN choose alike.
+  const F32 low_rg = xsimd::select(g < r, g, r);
+  const F32 high_rg = xsimd::select(g < r, r, g);
+  const F32 least = xsimd::select(b < low_rg, b, low_rg);
+  const F32 most = xsimd::select(high_rg < b, b, high_rg);
+  const F32 capped = xsimd::select(high_rg < b, high_rg, b);
+  const F32 middle = xsimd::select(capped < low_rg, low_rg, capped);
+
+  const F32 second_of_rg = xsimd::select(g < r, F32(2.0F), F32(1.0F));
+  const F32 first_of_rg = xsimd::select(g < r, F32(4.0F), F32(5.0F));
+  const F32 second = xsimd::select(b < low_rg, F32(3.0F), second_of_rg);
+  const F32 first = xsimd::select(high_rg < b, F32(6.0F), first_of_rg);
+  return {least, middle - least, most - middle, prepare(xsimd::to_int(second)), prepare(xsimd::to_int(first))};
+}
+
+inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexcept {
+  const F32 sample = (m.white * white + m.second * secondary(row, m.second_index)) +
+                     m.first * primary(row, m.first_index);
+  return limit_below(lowest, sample);
+}
+
+/// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at.
+template <class Put>
+inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, F32 lowest, std::size_t bands,
+                        Put put) noexcept {
+  for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
+    Mixture m[kGroup];
+    for (std::size_t j = 0; j < kGroup; ++j) {
+      const std::size_t i = at + lane + j * kWidth;
+      m[j] = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
+    }
+    for (std::size_t band = 0; band < bands; ++band) {
+      const float* entry = table + band * kSmitsRow;
+      const Row row = load_row(entry);
+      const F32 white(entry[0]);
+      for (std::size_t j = 0; j < kGroup; ++j) put(band, lane + j * kWidth, mixed(m[j], row, white, lowest));
+    }
+  }
+}
+
+void smits_blocks(float* dst, const float* const rgb[3], const float* table, float lowest, std::size_t bands,
+                  std::size_t blocks, bool streaming) noexcept {
+  const F32 low(lowest);
+  for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
+    if (streaming) {
+      smits_lanes(rgb, block * kLanes, table, low, bands,
+                  [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
+    } else {
+      smits_lanes(rgb, block * kLanes, table, low, bands,
+                  [dst](std::size_t band, std::size_t lane, F32 v) { store(dst + band * kLanes + lane, v); });
+    }
+  }
+  if (streaming) stream_fence();
+}
+
+inline void put_sample(float* p, F32 v) noexcept { store_any(p, v); }
+inline void put_sample(std::uint16_t* p, F32 v) noexcept { store_half(p, limit_above(F32(kHalfMax), v)); }
+
+template <class Sample>
+inline void smits_rows(Sample* const* rows, const float* const rgb[3], const float* table, float lowest,
+                       std::size_t bands, std::size_t n) noexcept {
+  const F32 low(lowest);
+  const std::size_t whole = n / kLanes * kLanes;
+  for (std::size_t at = 0; at < whole; at += kLanes) {
+    smits_lanes(rgb, at, table, low, bands, [rows, at](std::size_t band, std::size_t lane, F32 v) {
+      put_sample(rows[band] + at + lane, v);
+    });
+  }
+  if (whole == n) return;
+  // The rest of the row goes through a small buffer a band at a time: what follows a row's end is not ours.
+  const std::size_t rest = n - whole;
+  Mixture m[kLanes / kWidth];
+  for (std::size_t j = 0; j * kWidth < rest; ++j) {
+    const std::size_t i = whole + j * kWidth;
+    m[j] = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
+  }
+  for (std::size_t band = 0; band < bands; ++band) {
+    alignas(64) Sample tail[kLanes];
+    const float* entry = table + band * kSmitsRow;
+    const Row row = load_row(entry);
+    const F32 white(entry[0]);
+    for (std::size_t j = 0; j * kWidth < rest; ++j) put_sample(tail + j * kWidth, mixed(m[j], row, white, low));
+    std::memcpy(rows[band] + whole, tail, rest * sizeof(Sample));
+  }
+}
+
+void smits_rows_float(float* const* rows, const float* const rgb[3], const float* table, float lowest,
+                      std::size_t bands, std::size_t n) noexcept {
+  smits_rows(rows, rgb, table, lowest, bands, n);
+}
+
+void smits_rows_half(std::uint16_t* const* rows, const float* const rgb[3], const float* table, float lowest,
+                     std::size_t bands, std::size_t n) noexcept {
+  smits_rows(rows, rgb, table, lowest, bands, n);
+}
+
+}  // namespace
+}  // namespace spectile::kernels

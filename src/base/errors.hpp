@@ -1,0 +1,26 @@
+// Helpers to build and hand on errors.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include <spectile/result.hpp>
+
+namespace spectile {
+
+/// An Error whose message is formatted with fmt.
+template <class... Args>
+Error make_error(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
+  return Error{code, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+}  // namespace spectile
+
+/// Returns the error of a Result from the enclosing function.
+#define SPECTILE_TRY(expression)                                  \
+  do {                                                            \
+    if (auto result_of_try = (expression); !result_of_try) {      \
+      return result_of_try.error();                               \
+    }                                                             \
+  } while (false)

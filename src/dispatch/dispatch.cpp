@@ -1,0 +1,148 @@
+// Detection of the processor's instruction sets and choice of the kernel table.
+#include "src/dispatch/dispatch.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <string>
+
+#include <spectile/isa.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/reference/table.hpp"
+
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
+namespace spectile {
+namespace kernels {
+#if defined(__x86_64__)
+extern const KernelTable sse42;
+extern const KernelTable avx2;
+extern const KernelTable avx512;
+#elif defined(__aarch64__)
+extern const KernelTable neon;
+#endif
+}  // namespace kernels
+
+namespace dispatch {
+namespace {
+
+using kernels::KernelTable;
+
+#if defined(__x86_64__)
+// Half conversion; the operating system's part is covered by the test for AVX2 that always goes with it.
+bool has_f16c() {
+  unsigned a = 0;
+  unsigned b = 0;
+  unsigned c = 0;
+  unsigned d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & (1U << 29)) != 0;
+}
+// The compiler's builtins also ask whether the operating system saves the registers (XCR0).
+bool runs_sse42() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
+bool runs_avx2() { return runs_sse42() && __builtin_cpu_supports("avx2") && has_f16c(); }
+bool runs_avx512() {
+  return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+struct Entry {
+  std::string_view name;
+  const KernelTable* table;  // null: not in this build
+  bool (*runs)();
+};
+
+bool always() { return true; }
+
+constexpr Entry kEntries[] = {
+    {"scalar", &reference::table, always},
+#if defined(__x86_64__)
+    {"sse4.2", &kernels::sse42, runs_sse42},
+    {"avx2", &kernels::avx2, runs_avx2},
+    {"avx512", &kernels::avx512, runs_avx512},
+    {"neon", nullptr, always},
+#elif defined(__aarch64__)
+    {"sse4.2", nullptr, always},
+    {"avx2", nullptr, always},
+    {"avx512", nullptr, always},
+    {"neon", &kernels::neon, always},
+#else
+    {"sse4.2", nullptr, always},
+    {"avx2", nullptr, always},
+    {"avx512", nullptr, always},
+    {"neon", nullptr, always},
+#endif
+};
+
+std::atomic<const KernelTable*> forced{nullptr};
+
+std::string names_here() {
+  std::string names;
+  for (const KernelTable* table : available()) names += names.empty() ? table->name : std::string(", ") + table->name;
+  return names;
+}
+
+}  // namespace
+
+std::vector<const KernelTable*> available() {
+  std::vector<const KernelTable*> tables;
+  for (const Entry& entry : kEntries) {
+    if (entry.table != nullptr && entry.runs()) tables.push_back(entry.table);
+  }
+  return tables;
+}
+
+Result<const KernelTable*> find(std::string_view name) {
+  for (const Entry& entry : kEntries) {
+    if (entry.name != name) continue;
+    if (entry.table != nullptr && entry.runs()) return entry.table;
+    return make_error(ErrorCode::kUnavailable, "instruction set \"{}\" does not run on this machine, which has {}", name,
+                      names_here());
+  }
+  return make_error(ErrorCode::kUnknownName, "instruction set \"{}\" is unknown; this machine has {}", name,
+                    names_here());
+}
+
+Result<const KernelTable*> active() {
+  if (const KernelTable* table = forced.load(std::memory_order_acquire)) return table;
+  static const Result<const KernelTable*> chosen = []() -> Result<const KernelTable*> {
+    const char* name = std::getenv("SPECTILE_ISA");
+    if (name == nullptr || *name == '\0') return available().back();
+    auto table = find(name);
+    if (!table) return make_error(table.error().code, "SPECTILE_ISA: {}", table.error().message);
+    return table;
+  }();
+  return chosen;
+}
+
+Result<void> force(std::string_view name) {
+  if (name.empty()) {
+    forced.store(nullptr, std::memory_order_release);
+    return {};
+  }
+  const auto table = find(name);
+  if (!table) return table.error();
+  forced.store(*table, std::memory_order_release);
+  return {};
+}
+
+}  // namespace dispatch
+
+std::vector<std::string> available_isas() {
+  std::vector<std::string> names;
+  for (const kernels::KernelTable* table : dispatch::available()) names.emplace_back(table->name);
+  return names;
+}
+
+Result<std::string> active_isa() {
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  return std::string((*table)->name);
+}
+
+Result<void> force_isa(std::string_view name) { return dispatch::force(name); }
+
+}  // namespace spectile

@@ -1,0 +1,118 @@
+// Scalar twins of the element-wise kernels and of the folds over bands.
+#include "src/reference/arithmetic.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/abi.hpp"
+
+namespace spectile::reference {
+
+using kernels::kLanes;
+
+void add(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] + b[i];
+}
+
+void subtract(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] - b[i];
+}
+
+void multiply(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] * b[i];
+}
+
+void divide(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] / b[i];
+}
+
+void divide_or_zero(float* dst, const float* a, const float* b, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = b[i] == 0.0F ? 0.0F : a[i] / b[i];
+}
+
+void negate(float* dst, const float* a, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = -a[i];
+}
+
+void scale(float* dst, const float* a, float s, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] * s;
+}
+
+void multiply_add(float* dst, const float* a, const float* b, const float* c, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] * b[i] + c[i];
+}
+
+void lerp(float* dst, const float* a, const float* b, float t, std::size_t n) noexcept {
+  const float rest = 1.0F - t;
+  for (std::size_t i = 0; i < n; ++i) dst[i] = rest * a[i] + t * b[i];
+}
+
+void sqrt(float* dst, const float* a, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = std::sqrt(a[i]);
+}
+
+void clamp(float* dst, const float* a, float lo, float hi, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = a[i];
+    dst[i] = x < lo ? lo : (hi < x ? hi : x);
+  }
+}
+
+void minimum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      float least = std::numeric_limits<float>::infinity();
+      for (std::size_t band = 0; band < bands; ++band) {
+        const float s = spectra[(block * bands + band) * kLanes + lane];
+        least = s < least ? s : least;
+      }
+      dst[block * kLanes + lane] = least;
+    }
+  }
+}
+
+void maximum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      float most = -std::numeric_limits<float>::infinity();
+      for (std::size_t band = 0; band < bands; ++band) {
+        const float s = spectra[(block * bands + band) * kLanes + lane];
+        most = most < s ? s : most;
+      }
+      dst[block * kLanes + lane] = most;
+    }
+  }
+}
+
+namespace {
+
+/// mask[block] has a lane's bit when `test` holds for its sample index in every band.
+template <class Test>
+void mask_all(std::uint64_t* mask, std::size_t bands, std::size_t blocks, Test test) {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    mask[block] = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      bool all = true;
+      for (std::size_t band = 0; band < bands; ++band) all = all && test((block * bands + band) * kLanes + lane);
+      mask[block] |= static_cast<std::uint64_t>(all) << lane;
+    }
+  }
+}
+
+}  // namespace
+
+void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  mask_all(mask, bands, blocks, [spectra](std::size_t i) { return spectra[i] == 0.0F; });
+}
+
+void nan_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  mask_all(mask, bands, blocks, [spectra](std::size_t i) { return !std::isnan(spectra[i]); });
+  for (std::size_t block = 0; block < blocks; ++block) mask[block] = ~mask[block];
+}
+
+void equal_mask(std::uint64_t* mask, const float* a, const float* b, std::size_t bands,
+                std::size_t blocks) noexcept {
+  mask_all(mask, bands, blocks, [a, b](std::size_t i) { return a[i] == b[i]; });
+}
+
+}  // namespace spectile::reference

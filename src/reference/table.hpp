@@ -1,0 +1,10 @@
+// The reference's KernelTable.
+#pragma once
+
+#include "kernels/abi.hpp"
+
+namespace spectile::reference {
+
+extern const kernels::KernelTable table;
+
+}  // namespace spectile::reference
