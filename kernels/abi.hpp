@@ -87,11 +87,11 @@ struct KernelTable {
   /// dst [blocks][bands][kLanes]; with `stream`, stores that go round the caches
   void (*smits_blocks)(float* dst, const float* const rgb[3], const float* table, float lowest, std::size_t bands,
                        std::size_t blocks, bool stream) noexcept;
-  /// rows[band][0..n), any n, any alignment; rgb readable up to n rounded up to kLanes
-  void (*smits_rows_float)(float* const* rows, const float* const rgb[3], const float* table, float lowest,
+  /// rows[band] takes n floats, at any address, for any n; rgb readable up to n rounded up to kLanes
+  void (*smits_rows_float)(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                            std::size_t bands, std::size_t n) noexcept;
-  /// the same, limited to kHalfMax from above and rounded to nearest-even half
-  void (*smits_rows_half)(std::uint16_t* const* rows, const float* const rgb[3], const float* table, float lowest,
+  /// the same in halves: limited to kHalfMax from above and rounded to nearest even
+  void (*smits_rows_half)(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                           std::size_t bands, std::size_t n) noexcept;
 
   // Conversion. Sources and targets of any alignment, n a multiple of kLanes.

@@ -72,13 +72,13 @@ inline void put_sample(float* p, F32 v) noexcept { store_any(p, v); }
 inline void put_sample(std::uint16_t* p, F32 v) noexcept { store_half(p, limit_above(F32(kHalfMax), v)); }
 
 template <class Sample>
-inline void smits_rows(Sample* const* rows, const float* const rgb[3], const float* table, float lowest,
+inline void smits_rows(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                        std::size_t bands, std::size_t n) noexcept {
   const F32 low(lowest);
   const std::size_t whole = n / kLanes * kLanes;
   for (std::size_t at = 0; at < whole; at += kLanes) {
     smits_lanes(rgb, at, table, low, bands, [rows, at](std::size_t band, std::size_t lane, F32 v) {
-      put_sample(rows[band] + at + lane, v);
+      put_sample(static_cast<Sample*>(rows[band]) + at + lane, v);
     });
   }
   if (whole == n) return;
@@ -95,18 +95,18 @@ inline void smits_rows(Sample* const* rows, const float* const rgb[3], const flo
     const Row row = load_row(entry);
     const F32 white(entry[0]);
     for (std::size_t j = 0; j * kWidth < rest; ++j) put_sample(tail + j * kWidth, mixed(m[j], row, white, low));
-    std::memcpy(rows[band] + whole, tail, rest * sizeof(Sample));
+    std::memcpy(static_cast<Sample*>(rows[band]) + whole, tail, rest * sizeof(Sample));
   }
 }
 
-void smits_rows_float(float* const* rows, const float* const rgb[3], const float* table, float lowest,
+void smits_rows_float(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                       std::size_t bands, std::size_t n) noexcept {
-  smits_rows(rows, rgb, table, lowest, bands, n);
+  smits_rows<float>(rows, rgb, table, lowest, bands, n);
 }
 
-void smits_rows_half(std::uint16_t* const* rows, const float* const rgb[3], const float* table, float lowest,
+void smits_rows_half(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                      std::size_t bands, std::size_t n) noexcept {
-  smits_rows(rows, rgb, table, lowest, bands, n);
+  smits_rows<std::uint16_t>(rows, rgb, table, lowest, bands, n);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <spectile/arithmetic.hpp>
 #include <spectile/bands.hpp>
 #include <spectile/colorimetry.hpp>
+#include <spectile/image.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/result.hpp>

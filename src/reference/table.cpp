@@ -2,6 +2,7 @@
 #include "src/reference/table.hpp"
 
 #include <cmath>
+#include <cstring>
 
 
 #include "src/reference/arithmetic.hpp"
@@ -70,23 +71,29 @@ void smits_blocks(float* dst, const float* const rgb[3], const float* table, flo
   }
 }
 
-void smits_rows_float(float* const* rows, const float* const rgb[3], const float* table, float lowest,
+/// row[i] = sample, at whatever address the row starts.
+template <class Sample>
+void put(void* row, std::size_t i, Sample sample) {
+  std::memcpy(static_cast<unsigned char*>(row) + i * sizeof(Sample), &sample, sizeof(Sample));
+}
+
+void smits_rows_float(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                       std::size_t bands, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
     for (std::size_t band = 0; band < bands; ++band) {
-      rows[band][i] = smits_sample(m, table + band * kSmitsRow, lowest);
+      put(rows[band], i, smits_sample(m, table + band * kSmitsRow, lowest));
     }
   }
 }
 
-void smits_rows_half(std::uint16_t* const* rows, const float* const rgb[3], const float* table, float lowest,
+void smits_rows_half(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                      std::size_t bands, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
     for (std::size_t band = 0; band < bands; ++band) {
       const float sample = smits_sample(m, table + band * kSmitsRow, lowest);
-      rows[band][i] = half_from_float(kHalfMax < sample ? kHalfMax : sample);
+      put(rows[band], i, half_from_float(kHalfMax < sample ? kHalfMax : sample));
     }
   }
 }

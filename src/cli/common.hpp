@@ -1,0 +1,86 @@
+// What every subcommand shares: options, exit codes, messages, the progress bar.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include <spectile/spectile.hpp>
+
+namespace spectile::cli {
+
+/// Exit codes of the tool.
+enum Exit : int {
+  kOk = 0,
+  kBadInput = 1,       ///< a file that cannot be used
+  kBadUsage = 2,       ///< an option that cannot be meant
+  kNoRoom = 3,         ///< no space, no permission
+  kInterrupted = 130,  ///< stopped by a signal, as shells count it
+};
+
+/// Options common to every subcommand.
+struct Common {
+  int threads = 0;
+  std::string isa;
+  bool json = false;
+  bool quiet = false;
+};
+
+void add_common(CLI::App& command, Common& common);
+
+/// Puts the common options in force. Returns the exit code of what is wrong, after saying it.
+int apply_common(const Common& common);
+
+/// Prints one line to stderr and returns the error's exit code.
+int complain(const Error& error);
+
+/// Options of every command that writes images.
+struct WriteOptions {
+  std::string pixel;
+  std::string compression;
+  std::string nonfinite = "stop";
+  std::size_t tile = 65536;
+};
+
+void add_write_options(CLI::App& command, WriteOptions& options, const char* pixel_default);
+
+/// Fills `out`; the exit code of what is wrong, after saying it.
+int apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
+
+/// One input and the output that it becomes.
+struct Job {
+  std::string input;
+  std::string output;
+};
+
+/// Pairs inputs with outputs: one file, or each into a directory under its own name. The directory is made when it
+/// does not exist and there are several inputs or the name ends in a slash. Says what is wrong.
+int plan_jobs(const std::vector<std::string>& inputs, const std::string& output, std::vector<Job>& jobs);
+
+/// Runs convert(job, options) for each job; one that fails does not stop the others. Prints reports.
+int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& options,
+             const std::function<Result<ImageReport>(const Job&)>& convert);
+
+/// "12.3 Mpixel/s".
+std::string speed_text(std::uint64_t pixels, double seconds);
+/// "1.2 GB".
+std::string size_text(std::uint64_t bytes);
+
+/// Lines that draw values over wavelengths, 60 columns wide.
+std::vector<std::string> plot(std::span<const float> values, const Bands& bands);
+
+/// True once SIGINT or SIGTERM has come.
+bool interrupted();
+/// Makes SIGINT and SIGTERM end conversions cleanly.
+void catch_signals();
+
+// Each adds its subcommand; `exit` receives the code when it has run.
+void add_demo(CLI::App& app, int& exit);
+void add_upsample(CLI::App& app, int& exit);
+void add_project(CLI::App& app, int& exit);
+void add_info(CLI::App& app, int& exit);
+void add_verify(CLI::App& app, int& exit);
+
+}  // namespace spectile::cli

@@ -1,0 +1,155 @@
+// spectile demo: the main job on a chart made here.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "src/cli/common.hpp"
+
+namespace spectile::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  std::string directory = "spectile-demo";
+};
+
+constexpr int kWidth = 1536;
+constexpr int kHeight = 1024;
+
+/// Colour at hue h (0 to 6), saturation and value.
+std::array<double, 3> from_hsv(double h, double s, double v) {
+  std::array<double, 3> out{};
+  for (int k = 0; k < 3; ++k) {
+    const double t = std::fmod(h + (k == 0 ? 5.0 : k == 1 ? 3.0 : 1.0), 6.0);
+    out[static_cast<std::size_t>(k)] = v * (1 - s * std::clamp(std::min(t, 4 - t), 0.0, 1.0));
+  }
+  return out;
+}
+
+/// The chart: hue against value at full and at half saturation, greys in steps, and the cube's corners.
+std::array<double, 3> chart_color(int x, int y) {
+  const double u = (x + 0.5) / kWidth;
+  const double v = (y + 0.5) / kHeight;
+  if (v < 0.40) return from_hsv(6 * u, 1.0, 1 - v / 0.40);
+  if (v < 0.70) return from_hsv(6 * u, 0.5, 1 - (v - 0.40) / 0.30);
+  if (v < 0.85) {
+    const double grey = std::floor(u * 21) / 20;
+    return {grey, grey, grey};
+  }
+  const int corner = std::min(static_cast<int>(u * 8), 7);
+  return {(corner & 4) != 0 ? 1.0 : 0.0, (corner & 2) != 0 ? 1.0 : 0.0, (corner & 1) != 0 ? 1.0 : 0.0};
+}
+
+Result<ColorLanes> make_chart() {
+  auto chart = ColorLanes::create(std::size_t{kWidth} * kHeight);
+  if (!chart) return chart;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto color = chart_color(x, y);
+      const auto lane = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+      for (std::size_t k = 0; k < 3; ++k) chart->at(lane, k) = static_cast<float>(color[k]);
+    }
+  }
+  return chart;
+}
+
+/// Mean and largest absolute difference over all components.
+std::array<double, 2> differences(const RgbImage& a, const RgbImage& b) {
+  double sum = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < a.rgb.lanes(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double d = std::abs(static_cast<double>(a.rgb.at(i, k)) - static_cast<double>(b.rgb.at(i, k)));
+      sum += d;
+      most = std::max(most, d);
+    }
+  }
+  return {sum / (3.0 * static_cast<double>(a.rgb.lanes())), most};
+}
+
+int run(const Arguments& a) {
+  if (const int bad = apply_common(a.common)) return bad;
+  catch_signals();
+  std::error_code error;
+  std::filesystem::create_directories(a.directory, error);
+  if (error) {
+    return complain({error == std::errc::permission_denied ? ErrorCode::kNoPermission : ErrorCode::kBadFile,
+                     fmt::format("{}: cannot be made a directory: {}", a.directory, error.message())});
+  }
+  const std::filesystem::path folder(a.directory);
+  const std::string chart_path = (folder / "chart.exr").string();
+  const std::string spectral_path = (folder / "chart-spectral.exr").string();
+  const std::string back_path = (folder / "chart-back.exr").string();
+
+  const auto chart = make_chart();
+  if (!chart) return complain(chart.error());
+  ImageOptions plain;
+  plain.threads = a.common.threads;
+  if (auto written = write_rgb_image(chart_path, chart->view(), kWidth, kHeight, plain); !written) {
+    return complain(written.error());
+  }
+  UpsampleImageOptions up;
+  up.threads = a.common.threads;
+  const auto upsampled = upsample_image(chart_path, spectral_path, up);
+  if (!upsampled) return complain(upsampled.error());
+  ProjectImageOptions down;
+  down.threads = a.common.threads;
+  down.pixel = PixelType::kFloat;
+  const auto projected = project_image(spectral_path, back_path, down);
+  if (!projected) return complain(projected.error());
+  const auto verified = verify_image(chart_path, up);
+  if (!verified) return complain(verified.error());
+  const auto before = read_rgb_image(chart_path, {}, a.common.threads);
+  if (!before) return complain(before.error());
+  const auto after = read_rgb_image(back_path, {}, a.common.threads);
+  if (!after) return complain(after.error());
+  const auto [mean, most] = differences(*before, *after);
+
+  if (a.common.json) {
+    const nlohmann::json out = {
+        {"isa", verified->isa},
+        {"chart", chart_path},
+        {"spectral", spectral_path},
+        {"back", back_path},
+        {"upsample_mpixel_per_s", static_cast<double>(upsampled->pixels()) / upsampled->seconds * 1e-6},
+        {"project_mpixel_per_s", static_cast<double>(projected->pixels()) / projected->seconds * 1e-6},
+        {"different_samples", verified->different_samples},
+        {"oracle_difference", verified->max_oracle_difference},
+        {"round_trip_mean", mean},
+        {"round_trip_max", most}};
+    fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else if (!a.common.quiet) {
+    fmt::print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
+    fmt::print("{}: upsampled to {} bands, {}, {}; kernels ({}) equal the reference in {} of {} samples, which is "
+               "within {:.2g} of double\n",
+               spectral_path, upsampled->bands, speed_text(upsampled->pixels(), upsampled->seconds),
+               size_text(upsampled->bytes_written), verified->isa, verified->samples - verified->different_samples,
+               verified->samples, verified->max_oracle_difference);
+    fmt::print("{}: projected back under D65, {}\n", back_path, speed_text(projected->pixels(), projected->seconds));
+    fmt::print("round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: what the method loses\n", mean,
+               most);
+    const std::array<int, 2> at = {kWidth / 6 + 40, kHeight / 8};
+    const auto info = inspect_image(spectral_path, at, a.common.threads);
+    if (!info) return complain(info.error());
+    fmt::print("the spectrum of pixel {},{}:\n", at[0], at[1]);
+    for (const std::string& line : plot(info->pixel, *info->bands)) fmt::print("{}\n", line);
+  }
+  return verified->ok() ? kOk : kBadInput;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, int& exit) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "demo", "Make a chart, upsample it, project it back; show the error and the speed of each step");
+  command->add_option("DIR", a->directory, "Where the three images go")->capture_default_str();
+  add_common(*command, a->common);
+  command->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace spectile::cli

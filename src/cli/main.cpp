@@ -1,0 +1,49 @@
+// The spectile command.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "src/cli/common.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace spectile::cli;
+  CLI::App app{
+      "spectile turns RGB textures into spectral OpenEXR images and spectral images back into colour.\n"
+      "Exit codes: 0 done, 1 a file that cannot be used, 2 wrong usage, 3 no space or no permission."};
+  app.set_version_flag("--version", SPECTILE_VERSION);
+  app.require_subcommand(1);
+  int exit = kOk;
+  add_demo(app, exit);
+  add_upsample(app, exit);
+  add_project(app, exit);
+  add_info(app, exit);
+  add_verify(app, exit);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
+    std::string text = error.what();
+    for (char& c : text) c = c == '\n' ? ' ' : c;
+    fmt::print(stderr, "spectile: {} (see spectile --help)\n", text);
+    return kBadUsage;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    fmt::print(stderr, "spectile: cannot write to standard output\n");
+    return kNoRoom;
+  }
+  return exit;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "spectile: %s\n", error.what());
+    return spectile::cli::kBadInput;
+  }
+}

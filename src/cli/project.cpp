@@ -1,0 +1,75 @@
+// spectile project: spectral images to colour.
+#include <filesystem>
+#include <memory>
+
+#include "src/cli/common.hpp"
+
+namespace spectile::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  WriteOptions write;
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string to = "srgb";
+  std::string illuminant;
+  std::string observer = "1931";
+  std::string quantity;
+};
+
+int run(const Arguments& a) {
+  if (const int bad = apply_common(a.common)) return bad;
+  ProjectImageOptions options;
+  options.pixel = PixelType::kFloat;
+  if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  options.target = a.to == "xyz"         ? ColorTarget::kXyz
+                   : a.to == "luminance" ? ColorTarget::kLuminance
+                                         : ColorTarget::kSrgb;
+  options.observer = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
+  if (!a.illuminant.empty()) {
+    std::error_code ignored;
+    const bool file = a.illuminant.find('/') != std::string::npos || a.illuminant.find('.') != std::string::npos ||
+                      std::filesystem::is_regular_file(a.illuminant, ignored);
+    auto known = illuminant(a.illuminant);
+    auto light = !known && file ? load_spectrum_csv(a.illuminant) : std::move(known);
+    if (!light) return complain(light.error());
+    options.light = *light;
+  }
+  if (!a.quantity.empty()) {
+    const auto quantity = parse_quantity(a.quantity);
+    if (!quantity) return complain(quantity.error());
+    options.quantity = *quantity;
+  }
+  std::vector<Job> jobs;
+  if (const int bad = plan_jobs(a.inputs, a.output, jobs)) return bad;
+  return run_jobs(jobs, a.common, options,
+                  [&](const Job& job) { return project_image(job.input, job.output, options); });
+}
+
+}  // namespace
+
+void add_project(CLI::App& app, int& exit) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("project", "Turn spectral images into colour");
+  command->add_option("IN", a->inputs, "Spectral OpenEXR images (channels T.*nm or S0.*nm)")->required();
+  command->add_option("-o,--output", a->output, "File, or directory for several inputs")->required();
+  command->add_option("--to", a->to, "srgb (linear, white D65), xyz, or luminance (channel Y)")
+      ->check(CLI::IsMember({"srgb", "xyz", "luminance"}))
+      ->capture_default_str();
+  std::string names;
+  for (const std::string& name : illuminant_names()) names += (names.empty() ? "" : ", ") + name;
+  command->add_option("--illuminant", a->illuminant,
+                      "Light on reflectances: a file of wavelength,value lines, or one of " + names +
+                          "; D65 by default");
+  command->add_option("--observer", a->observer, "1931 (2 degree) or 1964 (10 degree)")
+      ->check(CLI::IsMember({"1931", "1964"}))
+      ->capture_default_str();
+  command->add_option("--quantity", a->quantity, "Which to take where a file holds both: reflectance or illuminant")
+      ->check(CLI::IsMember({"reflectance", "illuminant"}));
+  add_write_options(*command, a->write, "float");
+  add_common(*command, a->common);
+  command->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace spectile::cli

@@ -1,0 +1,163 @@
+// Conversion: the streaming frame common to every image-to-image job.
+#include "src/io/conversion.hpp"
+
+#include <algorithm>
+
+#include "src/base/errors.hpp"
+#include "src/ops/tiles.hpp"
+
+namespace spectile::io {
+
+void PixelCount::add(std::uint64_t more, int x, int y) {
+  if (count == 0 && more > 0) {
+    first_x = x;
+    first_y = y;
+  }
+  count += more;
+}
+
+void PixelCount::add(const PixelCount& later) { add(later.count, later.first_x, later.first_y); }
+
+void LineStats::add(const LineStats& later) {
+  nonfinite.add(later.nonfinite);
+  negative.add(later.negative);
+  over_one += later.over_one;
+  limited += later.limited;
+}
+
+std::size_t slot_count(const ImageSpec& spec, int width, int threads) {
+  // Work space that a conversion may use beyond what its threads must have.
+  constexpr std::size_t kBudget = std::size_t{192} << 20;
+  const auto count = static_cast<std::size_t>(threads);
+  if (count == 1) return 1;
+  const std::size_t fitting = kBudget / std::max<std::size_t>(encoder_bytes(spec, width), 1);
+  return std::clamp(fitting, count, 4 * count);
+}
+
+namespace {
+
+struct Slot {
+  std::shared_ptr<Strip> strip;
+  int chunk = 0;
+  bool encoded = false;
+  LineStats stats;
+};
+
+class Run {
+ public:
+  Run(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines, const ImageOptions& options,
+      const std::function<bool(const LineStats&)>& stop_at)
+      : job_(job),
+        writer_(writer),
+        slots_(slots),
+        // Whole chunks, so that none needs two strips.
+        strip_lines_((strip_lines + writer.lines_per_chunk() - 1) / writer.lines_per_chunk() *
+                     writer.lines_per_chunk()),
+        options_(options),
+        stop_at_(stop_at) {}
+
+  Result<LineStats> run(int threads) {
+    tiles::ordered_pipeline(
+        slots_.size(), threads, [this](std::size_t slot) { return produce(slots_[slot]); },
+        [this](std::size_t slot) { transform(slot); }, [this](std::size_t slot) { consume(slot); });
+    if (error_) return *error_;
+    if (!stopped_) {
+      SPECTILE_TRY(writer_.commit());
+    }
+    return total_;
+  }
+
+ private:
+  bool produce(Slot& slot) {
+    if (failed_ || next_chunk_ >= writer_.chunks()) return false;
+    const int first = next_chunk_ * writer_.lines_per_chunk();
+    const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
+    if (!strip_ || !strip_->holds(first, lines)) {
+      strip_.reset();
+      auto strip = job_.read(first, std::min(strip_lines_, writer_.height() - first));
+      if (!strip) return fail(strip.error());
+      strip_ = *std::move(strip);
+    }
+    slot.strip = strip_;
+    slot.chunk = next_chunk_++;
+    slot.stats = {};
+    return true;
+  }
+
+  void transform(std::size_t index) {
+    Slot& slot = slots_[index];
+    slot.encoded = false;
+    if (failed_) return;
+    if (stopped_) {
+      const int first = slot.chunk * writer_.lines_per_chunk();
+      const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
+      for (int i = 0; i < lines; ++i) job_.line(index, *slot.strip, first + i, nullptr, slot.stats);
+      return;
+    }
+    const ExrWriter::Pack pack = [&](int first, int lines, std::byte* packed) {
+      for (int i = 0; i < lines; ++i, packed += writer_.line_bytes()) {
+        job_.line(index, *slot.strip, first + i, packed, slot.stats);
+      }
+    };
+    if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
+    slot.encoded = true;
+    if (stop_at_(slot.stats)) stopped_ = true;
+  }
+
+  void consume(std::size_t index) {
+    Slot& slot = slots_[index];
+    slot.strip.reset();
+    if (failed_) return;
+    total_.add(slot.stats);
+    if (slot.encoded && !stopped_) {
+      if (auto written = writer_.write(index); !written) {
+        fail(written.error());
+        return;
+      }
+    }
+    const int done = std::min((slot.chunk + 1) * writer_.lines_per_chunk(), writer_.height());
+    const auto width = static_cast<std::uint64_t>(writer_.width());
+    const Progress progress = {static_cast<std::uint64_t>(done) * width,
+                               static_cast<std::uint64_t>(writer_.height()) * width};
+    if (options_.progress && !options_.progress(progress)) {
+      fail(make_error(ErrorCode::kCancelled, "stopped on request"));
+    }
+  }
+
+  bool fail(const Error& error) {
+    const std::scoped_lock lock(mutex_);
+    if (!error_) error_ = error;
+    failed_ = true;
+    return false;
+  }
+
+  LineJob& job_;
+  ExrWriter& writer_;
+  std::vector<Slot> slots_;
+  int strip_lines_;
+  const ImageOptions& options_;
+  const std::function<bool(const LineStats&)>& stop_at_;
+  std::shared_ptr<Strip> strip_;
+  int next_chunk_ = 0;
+  LineStats total_;
+  std::atomic<bool> failed_ = false;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                                 const ImageOptions& options,
+                                 const std::function<bool(const LineStats&)>& stop_at) {
+  return Run(job, writer, slots, strip_lines, options, stop_at).run(tiles::thread_count(options.threads));
+}
+
+Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,
+                 const char* remedy) {
+  return make_error(code, "{}: {} {} pixel{}, the first at {},{}; {}", path, found.count, what,
+                    found.count == 1 ? "" : "s", found.first_x, found.first_y, remedy);
+}
+
+}  // namespace spectile::io

@@ -1,0 +1,64 @@
+// Conversion: the streaming frame common to every image-to-image job.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <spectile/image.hpp>
+
+#include "kernels/abi.hpp"
+#include "src/io/exr_writer.hpp"
+#include "src/io/strips.hpp"
+
+namespace spectile::io {
+
+/// Pixels of one kind in a run of lines: how many, and where the first is.
+struct PixelCount {
+  std::uint64_t count = 0;
+  int first_x = -1;
+  int first_y = -1;
+  void add(std::uint64_t more, int x, int y);
+  void add(const PixelCount& later);
+};
+
+/// What a run of lines was found to hold.
+struct LineStats {
+  PixelCount nonfinite;
+  PixelCount negative;
+  std::uint64_t over_one = 0;
+  std::uint64_t limited = 0;
+  void add(const LineStats& later);
+};
+
+/// One job's own part of a conversion.
+class LineJob {
+ public:
+  virtual ~LineJob() = default;
+  /// Reads lines into a strip; in order, one call at a time.
+  virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
+  /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells which of
+  /// the job's work spaces to use; calls with different slots run side by side.
+  virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
+};
+
+/// Slots (and so encoders) that a conversion runs with.
+std::size_t slot_count(const ImageSpec& spec, int width, int threads);
+
+/// Streams a job's lines through the encoders into the writer's file, and commits it.
+/// `stop_at` says whether what was found so far forbids an output; then the rest is only counted.
+/// Errors: from reading and writing, kCancelled.
+Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                                 const ImageOptions& options,
+                                 const std::function<bool(const LineStats&)>& stop_at);
+
+/// The error for a conversion that stopped at pixels it may not convert; `what` is "non-finite" or "negative".
+Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,
+                 const char* remedy);
+
+}  // namespace spectile::io

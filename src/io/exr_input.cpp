@@ -1,0 +1,95 @@
+// ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
+#include "src/io/exr_input.hpp"
+
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfThreading.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <new>
+
+#include "src/base/errors.hpp"
+#include "src/io/atomic_file.hpp"
+
+namespace spectile::io {
+namespace {
+
+/// One line of what a library says: no line breaks, no final full stop, no file name before it.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+Result<void> check_is_exr(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return system_error(path, "read", errno);
+  struct stat status {};
+  std::array<unsigned char, 4> magic{};
+  const bool known = ::fstat(fd, &status) == 0;
+  const bool folder = known && S_ISDIR(status.st_mode);
+  const bool plain = known && S_ISREG(status.st_mode);
+  const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
+  ::close(fd);
+  if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
+  if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
+  // The magic number of OpenEXR files, little-endian 20000630.
+  constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
+  if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
+  return {};
+}
+
+}  // namespace
+
+Result<void> guarded(const std::string& path, const std::function<void()>& action) {
+  try {
+    action();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kBadFile, "{}: needs more memory than there is (a damaged file may claim any size)",
+                      path);
+  } catch (const std::exception& error) {
+    std::string text = one_line(error.what());
+    // The library's messages often begin with the file's name in some form of sentence.
+    return make_error(ErrorCode::kBadFile, "{}: {}", path, text.empty() ? "damaged" : text);
+  } catch (...) {
+    return make_error(ErrorCode::kBadFile, "{}: damaged", path);
+  }
+}
+
+Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
+  SPECTILE_TRY(check_is_exr(path));
+  std::unique_ptr<ExrInput> input(new ExrInput(path));
+  SPECTILE_TRY(guarded(path, [&] {
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
+    const int workers = threads > 1 ? threads : 0;
+    if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
+    input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), workers);
+  }));
+  bool flat = false;
+  for (int part = 0; part < input->parts(); ++part) flat = flat || !input->deep(part);
+  if (!flat) return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
+  return input;
+}
+
+bool ExrInput::deep(int part) const {
+  const Imf::Header& h = header(part);
+  return h.hasType() && Imf::isDeepData(h.type());
+}
+
+Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, int y1) {
+  return guarded(path_, [&] {
+    Imf::InputPart input(*file_, part);
+    input.setFrameBuffer(target);
+    input.readPixels(y0, y1);
+  });
+}
+
+}  // namespace spectile::io

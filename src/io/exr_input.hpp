@@ -1,0 +1,43 @@
+// ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
+#pragma once
+
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <spectile/result.hpp>
+
+namespace spectile::io {
+
+/// Runs `action`; an exception becomes an Error that names `path`.
+Result<void> guarded(const std::string& path, const std::function<void()>& action);
+
+/// A file with at least one flat (not deep) part. Not thread-safe; it decodes on several threads itself.
+class ExrInput {
+ public:
+  /// Opens and checks the headers of every part.
+  /// Errors: kBadFile (missing, a directory, not OpenEXR, damaged, deep only, larger than kMaxSide); kNoPermission.
+  static Result<std::unique_ptr<ExrInput>> open(const std::string& path, int threads);
+
+  // Pixels along a side that are believed; more is taken for damage.
+  static constexpr int kMaxSide = 1 << 18;
+
+  const std::string& path() const noexcept { return path_; }
+  int parts() const { return file_->parts(); }
+  const Imf::Header& header(int part) const { return file_->header(part); }
+  bool deep(int part) const;
+
+  /// Reads lines y0 to y1, both included, of a part into the frame buffer. Errors: kBadFile.
+  Result<void> read(int part, const Imf::FrameBuffer& target, int y0, int y1);
+
+ private:
+  explicit ExrInput(std::string path) : path_(std::move(path)) {}
+  std::string path_;
+  std::unique_ptr<Imf::MultiPartInputFile> file_;
+};
+
+}  // namespace spectile::io

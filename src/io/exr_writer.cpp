@@ -1,0 +1,269 @@
+// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in order.
+#include "src/io/exr_writer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "src/base/errors.hpp"
+#include "src/io/attributes.hpp"
+#include "src/io/dwa_encoder.hpp"
+#include "src/io/exr_input.hpp"
+
+namespace spectile::io {
+
+static_assert(std::endian::native == std::endian::little, "packed lines are written as they are in memory");
+
+struct ExrWriter::Encoder {
+  exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+  exr_chunk_info_t chunk{};
+  const Pack* pack = nullptr;
+  int first_line = 0;
+  bool ready = false;
+  std::vector<std::byte> lines;  // for DWA, which has its own encoder
+  std::vector<char> compressed;
+
+  /// The pack step of the pipeline: the caller's last kernels write straight into the packed lines.
+  static exr_result_t pack_step(exr_encode_pipeline_t* pipeline) {
+    auto* self = static_cast<Encoder*>(pipeline->encoding_user_data);
+    (*self->pack)(self->first_line, pipeline->chunk.height, static_cast<std::byte*>(pipeline->packed_buffer));
+    pipeline->packed_bytes = pipeline->chunk.unpacked_size;
+    return EXR_ERR_SUCCESS;
+  }
+  /// The write step does nothing: finished chunks wait in their slot for their turn.
+  static exr_result_t keep_step(exr_encode_pipeline_t*) { return EXR_ERR_SUCCESS; }
+};
+
+namespace {
+
+int lines_per_chunk_of(CompressionKind kind) {
+  switch (kind) {
+    case CompressionKind::kZip:
+    case CompressionKind::kPxr24:
+      return 16;
+    case CompressionKind::kPiz:
+    case CompressionKind::kB44:
+    case CompressionKind::kB44a:
+    case CompressionKind::kDwaa:
+      return 32;
+    case CompressionKind::kDwab:
+      return 256;
+    default:
+      return 1;
+  }
+}
+
+exr_compression_t compression_type(CompressionKind kind) {
+  switch (kind) {
+    case CompressionKind::kRle:
+      return EXR_COMPRESSION_RLE;
+    case CompressionKind::kZips:
+      return EXR_COMPRESSION_ZIPS;
+    case CompressionKind::kZip:
+      return EXR_COMPRESSION_ZIP;
+    case CompressionKind::kPiz:
+      return EXR_COMPRESSION_PIZ;
+    case CompressionKind::kPxr24:
+      return EXR_COMPRESSION_PXR24;
+    case CompressionKind::kB44:
+      return EXR_COMPRESSION_B44;
+    case CompressionKind::kB44a:
+      return EXR_COMPRESSION_B44A;
+    case CompressionKind::kDwaa:
+      return EXR_COMPRESSION_DWAA;
+    case CompressionKind::kDwab:
+      return EXR_COMPRESSION_DWAB;
+    case CompressionKind::kNone:
+      break;
+  }
+  return EXR_COMPRESSION_NONE;
+}
+
+bool is_dwa(CompressionKind kind) { return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab; }
+
+}  // namespace
+
+std::size_t encoder_bytes(const ImageSpec& spec, int width) {
+  std::size_t pixel = 0;
+  for (const ChannelSpec& channel : spec.channels) pixel += channel.sample_bytes();
+  const auto lines = static_cast<std::size_t>(lines_per_chunk_of(spec.compression.kind));
+  const std::size_t packed = pixel * static_cast<std::size_t>(width) * lines;
+  // Packed lines; compressed, the result and the compressor's own copies too.
+  return spec.compression.kind == CompressionKind::kNone ? packed : 4 * packed;
+}
+
+ExrWriter::ExrWriter(AtomicFile file) : file_(std::move(file)) {}
+
+Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, const ImageSpec& spec,
+                                                     std::size_t slots) {
+  auto file = AtomicFile::create(path);
+  if (!file) return file.error();
+  std::unique_ptr<ExrWriter> writer(new ExrWriter(*std::move(file)));
+  SPECTILE_TRY(writer->start(path, spec, slots));
+  return writer;
+}
+
+Error ExrWriter::failure(const char* doing, exr_result_t code) {
+  if (!io_result_) return io_result_.error();
+  if (code == EXR_ERR_OUT_OF_MEMORY) return make_error(ErrorCode::kOutOfMemory, "{}: out of memory", path_);
+  std::string text = last_message_.empty() ? exr_get_default_error_message(code) : last_message_;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return make_error(ErrorCode::kBadFile, "{}: cannot {}: {}", path_, doing, text);
+}
+
+Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, std::size_t slots) {
+  path_ = path;
+  exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  init.user_data = this;
+  init.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* message) {
+    void* user = nullptr;
+    if (exr_get_user_data(context, &user) == EXR_ERR_SUCCESS && user != nullptr) {
+      static_cast<ExrWriter*>(user)->last_message_ = message;
+    }
+  };
+  init.write_fn = [](exr_const_context_t, void* user, const void* data, std::uint64_t bytes, std::uint64_t offset,
+                     exr_stream_error_func_ptr_t) -> std::int64_t {
+    auto* self = static_cast<ExrWriter*>(user);
+    if (!self->io_result_) return -1;
+    self->io_result_ = self->file_.write_at(data, bytes, offset);
+    if (!self->io_result_) return -1;
+    self->bytes_written_ = std::max(self->bytes_written_, offset + bytes);
+    return static_cast<std::int64_t>(bytes);
+  };
+  const auto check = [&](exr_result_t code) -> Result<void> {
+    if (code != EXR_ERR_SUCCESS) return failure("write the header", code);
+    return {};
+  };
+  SPECTILE_TRY(check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &init)));
+  int part = 0;
+  SPECTILE_TRY(check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part)));
+
+  const Imath::Box2i& data = spec.source->dataWindow();
+  const Imath::Box2i& display = spec.source->displayWindow();
+  const exr_attr_box2i_t data_window = {{data.min.x, data.min.y}, {data.max.x, data.max.y}};
+  const exr_attr_box2i_t display_window = {{display.min.x, display.min.y}, {display.max.x, display.max.y}};
+  const exr_attr_v2f_t centre = {spec.source->screenWindowCenter().x, spec.source->screenWindowCenter().y};
+  SPECTILE_TRY(check(exr_initialize_required_attr(context_, part, &display_window, &data_window,
+                                                  spec.source->pixelAspectRatio(), &centre,
+                                                  spec.source->screenWindowWidth(), EXR_LINEORDER_INCREASING_Y,
+                                                  compression_type(spec.compression.kind))));
+  const bool zlib = spec.compression.kind == CompressionKind::kZip || spec.compression.kind == CompressionKind::kZips;
+  if (zlib && spec.compression.level >= 0) {
+    SPECTILE_TRY(check(exr_set_zip_compression_level(context_, part, spec.compression.level)));
+  }
+  SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
+  for (const auto& [name, text] : spec.text_attributes) {
+    SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
+  }
+
+  width_ = data.max.x - data.min.x + 1;
+  height_ = data.max.y - data.min.y + 1;
+  first_y_ = data.min.y;
+  lines_per_chunk_ = lines_per_chunk_of(spec.compression.kind);
+  // A line's channels lie in the order of their names.
+  std::vector<std::size_t> order(spec.channels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return spec.channels[a].name < spec.channels[b].name; });
+  offsets_.resize(order.size());
+  channels_ = spec.channels;
+  compression_ = spec.compression;
+  for (const std::size_t i : order) {
+    const ChannelSpec& channel = spec.channels[i];
+    SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), channel.type, EXR_PERCEPTUALLY_LINEAR,
+                                       1, 1)));
+    offsets_[i] = line_bytes_;
+    line_bytes_ += channel.sample_bytes() * static_cast<std::size_t>(width_);
+  }
+  SPECTILE_TRY(check(exr_write_header(context_)));
+  for (std::size_t i = 0; i < slots; ++i) encoders_.push_back(std::make_unique<Encoder>());
+  return {};
+}
+
+ExrWriter::~ExrWriter() {
+  if (context_ == nullptr) return;
+  for (const auto& encoder : encoders_) {
+    if (encoder->ready) exr_encoding_destroy(context_, &encoder->pipeline);
+  }
+  // Ending an unfinished file must not write to it any more.
+  if (io_result_) io_result_ = make_error(ErrorCode::kCancelled, "{}: not finished", path_);
+  exr_finish(&context_);
+}
+
+Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack) {
+  Encoder& encoder = *encoders_[slot];
+  encoder.first_line = chunk * lines_per_chunk_;
+  const int lines = std::min(lines_per_chunk_, height_ - encoder.first_line);
+  encoder.lines.resize(line_bytes_ * static_cast<std::size_t>(lines));
+  pack(encoder.first_line, lines, encoder.lines.data());
+  std::vector<PackedChannel> channels;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    channels.push_back({channels_[i].name.c_str(), channels_[i].type, offsets_[i]});
+  }
+  const auto method =
+      compression_.kind == CompressionKind::kDwab ? Imf::DWAB_COMPRESSION : Imf::DWAA_COMPRESSION;
+  return guarded(path_, [&] {
+    encoder.compressed =
+        encode_dwa(method, compression_.level, channels, line_bytes_, width_, lines, encoder.lines.data());
+  });
+}
+
+Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
+  if (is_dwa(compression_.kind)) return encode_dwa_chunk(slot, chunk, pack);
+  Encoder& encoder = *encoders_[slot];
+  const int y = first_y_ + chunk * lines_per_chunk_;
+  exr_result_t code = exr_write_scanline_chunk_info(context_, 0, y, &encoder.chunk);
+  if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  encoder.first_line = chunk * lines_per_chunk_;
+  encoder.pack = &pack;
+  code = encoder.ready ? exr_encoding_update(context_, 0, &encoder.chunk, &encoder.pipeline)
+                       : exr_encoding_initialize(context_, 0, &encoder.chunk, &encoder.pipeline);
+  if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  encoder.ready = true;
+  // The pipeline insists on a source for every channel, though only its own pack step would look at it.
+  static const std::uint8_t kUnused = 0;
+  for (int i = 0; i < encoder.pipeline.channel_count; ++i) {
+    exr_coding_channel_info_t& channel = encoder.pipeline.channels[i];
+    channel.encode_from_ptr = &kUnused;
+    channel.user_bytes_per_element = channel.bytes_per_element;
+    channel.user_data_type = channel.data_type;
+    channel.user_pixel_stride = channel.bytes_per_element;
+    channel.user_line_stride = channel.bytes_per_element * channel.width;
+  }
+  if (encoder.pipeline.convert_and_pack_fn == nullptr) {
+    code = exr_encoding_choose_default_routines(context_, 0, &encoder.pipeline);
+    if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  }
+  encoder.pipeline.encoding_user_data = &encoder;
+  encoder.pipeline.convert_and_pack_fn = &Encoder::pack_step;
+  encoder.pipeline.yield_until_ready_fn = nullptr;
+  encoder.pipeline.write_fn = &Encoder::keep_step;
+  code = exr_encoding_run(context_, 0, &encoder.pipeline);
+  if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  return {};
+}
+
+Result<void> ExrWriter::write(std::size_t slot) {
+  const Encoder& encoder = *encoders_[slot];
+  const bool dwa = is_dwa(compression_.kind);
+  const void* data = dwa ? encoder.compressed.data() : encoder.pipeline.compressed_buffer;
+  const std::size_t bytes = dwa ? encoder.compressed.size() : encoder.pipeline.compressed_bytes;
+  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line, data, bytes);
+  if (code != EXR_ERR_SUCCESS) return failure("write", code);
+  return {};
+}
+
+Result<void> ExrWriter::commit() {
+  for (const auto& encoder : encoders_) {
+    if (encoder->ready) exr_encoding_destroy(context_, &encoder->pipeline);
+    encoder->ready = false;
+  }
+  const exr_result_t code = exr_finish(&context_);
+  context_ = nullptr;
+  if (!io_result_) return io_result_;
+  if (code != EXR_ERR_SUCCESS) return failure("finish", code);
+  return file_.commit();
+}
+
+}  // namespace spectile::io

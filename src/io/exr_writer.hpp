@@ -1,0 +1,94 @@
+// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in order.
+#pragma once
+
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/openexr.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <spectile/image.hpp>
+#include <spectile/result.hpp>
+
+#include "src/io/atomic_file.hpp"
+
+namespace spectile::io {
+
+/// A channel to write, one sample a pixel.
+struct ChannelSpec {
+  std::string name;
+  exr_pixel_type_t type = EXR_PIXEL_HALF;
+  std::size_t sample_bytes() const { return type == EXR_PIXEL_HALF ? 2 : 4; }
+};
+
+/// All that a file's header needs. `source` gives windows, aspect and every attribute that describes the picture;
+/// those that describe its storage are left behind, and so are those named in `replaced`.
+struct ImageSpec {
+  const Imf::Header* source = nullptr;
+  std::vector<ChannelSpec> channels;  // names must be unique; the order is free
+  Compression compression;
+  std::vector<std::pair<std::string, std::string>> text_attributes;
+  std::vector<std::string> replaced;
+};
+
+/// Encodes and writes one file. Slots are independent encoders; no two threads may use one at a time.
+class ExrWriter {
+ public:
+  /// Packs `lines` lines from line `first` (counted from 0 at the top) one after another at `packed`.
+  using Pack = std::function<void(int first, int lines, std::byte* packed)>;
+
+  /// Errors: those of AtomicFile::create(), kBadFile for a header that OpenEXR refuses.
+  static Result<std::unique_ptr<ExrWriter>> create(const std::string& path, const ImageSpec& spec,
+                                                   std::size_t slots);
+  ~ExrWriter();
+  ExrWriter(const ExrWriter&) = delete;
+  ExrWriter& operator=(const ExrWriter&) = delete;
+
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  int lines_per_chunk() const noexcept { return lines_per_chunk_; }
+  int chunks() const noexcept { return (height_ + lines_per_chunk_ - 1) / lines_per_chunk_; }
+  std::size_t line_bytes() const noexcept { return line_bytes_; }
+  /// Byte offset of a channel within a packed line, by its place in the spec.
+  std::size_t channel_offset(std::size_t channel) const { return offsets_[channel]; }
+
+  /// Packs and compresses a chunk in a slot. May run beside encode() and write() of other slots.
+  Result<void> encode(std::size_t slot, int chunk, const Pack& pack);
+  /// Writes what the slot holds; chunks must come in order.
+  Result<void> write(std::size_t slot);
+  /// Completes the file and gives it its name.
+  Result<void> commit();
+  std::uint64_t bytes_written() const noexcept { return bytes_written_; }
+
+ private:
+  explicit ExrWriter(AtomicFile file);
+  Result<void> start(const std::string& path, const ImageSpec& spec, std::size_t slots);
+  Error failure(const char* doing, exr_result_t code);
+  Result<void> encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack);
+  struct Encoder;
+
+  AtomicFile file_;
+  std::string path_;
+  exr_context_t context_ = nullptr;
+  std::vector<std::unique_ptr<Encoder>> encoders_;
+  std::vector<std::size_t> offsets_;
+  std::vector<ChannelSpec> channels_;
+  Compression compression_;
+  std::size_t line_bytes_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  int first_y_ = 0;
+  int lines_per_chunk_ = 1;
+  std::uint64_t bytes_written_ = 0;
+  Result<void> io_result_;   // what the system said when a write failed
+  std::string last_message_;  // what OpenEXR said last
+};
+
+/// Bytes of work space one slot of an encoder needs, about.
+std::size_t encoder_bytes(const ImageSpec& spec, int width);
+
+}  // namespace spectile::io

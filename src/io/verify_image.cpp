@@ -1,0 +1,209 @@
+// verify_image: kernels, scalar reference and double oracle on every pixel of a file.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <spectile/image.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/lines.hpp"
+#include "src/io/output.hpp"
+#include "src/io/rgb_source.hpp"
+#include "src/io/spectral_source.hpp"
+#include "src/ops/tiles.hpp"
+#include "src/reference/oracle/oracle.hpp"
+#include "src/reference/table.hpp"
+
+namespace spectile {
+namespace {
+
+constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the error of one rounding
+
+/// NaN of any kind are the same result; their payload is not specified.
+bool same_result(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+}
+
+void compare(const float* kernel, const float* expected, std::size_t n, VerifyReport& report) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (same_result(kernel[i], expected[i])) continue;
+    ++report.different_samples;
+    const double difference = std::abs(static_cast<double>(kernel[i]) - static_cast<double>(expected[i]));
+    report.max_kernel_difference = std::max(report.max_kernel_difference, std::isnan(difference) ? INFINITY : difference);
+  }
+  report.samples += n;
+}
+
+void merge(const VerifyReport& from, VerifyReport& into) {
+  into.samples += from.samples;
+  into.different_samples += from.different_samples;
+  into.max_kernel_difference = std::max(into.max_kernel_difference, from.max_kernel_difference);
+  into.max_oracle_difference = std::max(into.max_oracle_difference, from.max_oracle_difference);
+}
+
+/// Upsampling of one line of RGB, three ways.
+Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampler& upsampler,
+                              const std::vector<std::array<double, 7>>& oracle_basis, const float* const rgb[3],
+                              std::size_t width, VerifyReport& report) {
+  const std::size_t bands = upsampler.bands().count();
+  auto memory = FloatBuffer::create(2 * bands * kLanesPerBlock);
+  if (!memory) return memory.error();
+  float* const ours = memory->data();
+  float* const expected = ours + bands * kLanesPerBlock;
+  double largest_basis = 0;
+  for (const auto& band : oracle_basis) {
+    for (const double v : band) largest_basis = std::max(largest_basis, std::abs(v));
+  }
+  for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
+    const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
+    kernels.smits_blocks(ours, in, upsampler.table(), upsampler.lowest(), bands, 1, false);
+    reference::table.smits_blocks(expected, in, upsampler.table(), upsampler.lowest(), bands, 1, false);
+    compare(ours, expected, bands * kLanesPerBlock, report);
+    for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
+      const std::array<double, 3> color = {in[0][i], in[1][i], in[2][i]};
+      const auto truth = oracle::smits_spectrum(oracle_basis, color, upsampler.lowest());
+      const auto [low, high] = std::minmax_element(color.begin(), color.end());
+      const double size = (std::abs(*low) + (*high - *low)) * largest_basis;
+      if (!(size > 0x1p-100) || !std::isfinite(size)) continue;
+      for (std::size_t b = 0; b < bands; ++b) {
+        const double difference = std::abs(static_cast<double>(expected[b * kLanesPerBlock + i]) - truth[b]);
+        report.max_oracle_difference = std::max(report.max_oracle_difference, difference / size);
+      }
+    }
+  }
+  return {};
+}
+
+/// Projection of one line of spectra, three ways.
+Result<void> verify_projected(const kernels::KernelTable& kernels, const io::SpectralSource& source,
+                              const io::Strip& strip, int line, const Projector& projector,
+                              const std::vector<std::array<double, 3>>& oracle_weights, VerifyReport& report) {
+  const std::size_t bands = source.bands().count();
+  auto memory = FloatBuffer::create((bands + 6) * kLanesPerBlock);
+  if (!memory) return memory.error();
+  float* const block = memory->data();
+  float* const ours = block + bands * kLanesPerBlock;
+  float* const expected = ours + 3 * kLanesPerBlock;
+  const auto width = static_cast<std::size_t>(source.width());
+  std::vector<double> spectrum(bands);
+  for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
+    source.block(kernels, strip, line, at, block);
+    const auto run = [&](const kernels::KernelTable& table, float* out) {
+      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block, projector.float_weights(), bands, 1);
+    };
+    run(kernels, ours);
+    run(reference::table, expected);
+    compare(ours, expected, 3 * kLanesPerBlock, report);
+    for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
+      std::array<double, 3> size{};
+      for (std::size_t b = 0; b < bands; ++b) {
+        spectrum[b] = block[b * kLanesPerBlock + i];
+        for (std::size_t k = 0; k < 3; ++k) size[k] += oracle_weights[b][k] * std::abs(spectrum[b]);
+      }
+      const auto truth = oracle::project(oracle_weights, spectrum);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(size[k] > 0x1p-100) || !std::isfinite(size[k])) continue;
+        const double difference = std::abs(static_cast<double>(expected[k * kLanesPerBlock + i]) - truth[k]);
+        report.max_oracle_difference = std::max(report.max_oracle_difference, difference / size[k]);
+      }
+    }
+  }
+  return {};
+}
+
+/// Runs check(line number, line's report) over the lines of a strip on all threads.
+template <class Check>
+Result<void> over_lines(int first, int lines, int threads, VerifyReport& total, Check check) {
+  std::vector<VerifyReport> reports(static_cast<std::size_t>(lines));
+  std::vector<Result<void>> results(static_cast<std::size_t>(lines));
+  Execution how;
+  how.threads = threads;
+  how.tile_lanes = kLanesPerBlock;
+  tiles::for_blocks(reports.size(), how, [&](std::size_t i, std::size_t) {
+    results[i] = check(first + static_cast<int>(i), reports[i]);
+  });
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    SPECTILE_TRY(results[i]);
+    merge(reports[i], total);
+  }
+  return {};
+}
+
+Result<VerifyReport> verify_rgb(io::RgbSource& source, const UpsampleImageOptions& options,
+                                const kernels::KernelTable& kernels) {
+  const auto negative = options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
+  const auto upsampler = Upsampler::create(options.method, options.quantity, options.bands, negative);
+  if (!upsampler) return upsampler.error();
+  const auto oracle_basis = oracle::smits_basis(options.method, options.quantity, options.bands);
+  const std::array<float, 9> matrix = color::to_float(io::to_srgb(source.color_space(), options.quantity));
+  VerifyReport report;
+  report.isa = kernels.name;
+  report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
+                            options.bands.count());
+  report.oracle_bound = 6 * kUlp;
+  const int step = io::strip_lines(source.header(), source.planes(), 1);
+  for (int first = 0; first < source.height(); first += step) {
+    const int lines = std::min(step, source.height() - first);
+    const auto strip = source.read(first, lines);
+    if (!strip) return strip.error();
+    SPECTILE_TRY(over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) -> Result<void> {
+      auto color = io::ColorLine::create(source.width());
+      if (!color) return color.error();
+      const auto width = static_cast<std::size_t>(source.width());
+      const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
+      source.float_rows(kernels, **strip, line, color->rows);
+      if (!io::is_srgb(source.color_space())) kernels.transform3(color->rows, rgb, matrix.data(), color->padded);
+      io::LineStats stats;
+      io::settle_range(kernels, color->rows, width, line, options.negative, stats);
+      return verify_upsampled(kernels, *upsampler, oracle_basis, rgb, width, found);
+    }));
+  }
+  report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  return report;
+}
+
+Result<VerifyReport> verify_spectral(io::SpectralSource& source, int threads, const kernels::KernelTable& kernels) {
+  const bool light = source.quantity() == Quantity::kIlluminant;
+  const auto d65 = illuminant("D65");
+  if (!d65) return d65.error();
+  const auto projector = light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
+  if (!projector) return projector.error();
+  const auto weights = oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
+  VerifyReport report;
+  report.isa = kernels.name;
+  report.what = fmt::format("projection of {}, {} bands", to_string(source.quantity()), source.bands().count());
+  // Roundings of the sum and of the weights, and what the oracle's own sum at 0.01 nm is off by.
+  report.oracle_bound = static_cast<double>(source.bands().count() + 2) * kUlp + 1e-8;
+  const int step = io::strip_lines(source.header(), source.planes(), 1);
+  for (int first = 0; first < source.height(); first += step) {
+    const int lines = std::min(step, source.height() - first);
+    const auto strip = source.read(first, lines);
+    if (!strip) return strip.error();
+    SPECTILE_TRY(over_lines(first, lines, threads, report, [&](int line, VerifyReport& found) {
+      return verify_projected(kernels, source, **strip, line, *projector, weights, found);
+    }));
+  }
+  report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  return report;
+}
+
+Result<VerifyReport> verify(const std::string& path, const UpsampleImageOptions& options) {
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  const int threads = tiles::thread_count(options.threads);
+  auto spectral = io::SpectralSource::open(path, std::nullopt, threads);
+  if (spectral) return verify_spectral(**spectral, options.threads, **kernels);
+  auto rgb = io::RgbSource::open(path, options.layer, threads);
+  if (!rgb) return rgb.error();
+  return verify_rgb(**rgb, options, **kernels);
+}
+
+}  // namespace
+
+Result<VerifyReport> verify_image(const std::string& path, const UpsampleImageOptions& options) {
+  return io::contained<VerifyReport>(path, [&] { return verify(path, options); });
+}
+
+}  // namespace spectile
