@@ -5,11 +5,13 @@
 #include <bit>
 #include <cstring>
 #include <numeric>
+#include <span>
 
 #include "src/base/errors.hpp"
 #include "src/io/attributes.hpp"
 #include "src/io/dwa_encoder.hpp"
 #include "src/io/exr_input.hpp"
+#include "src/io/zip_encoder.hpp"
 
 namespace spectile::io {
 
@@ -21,8 +23,10 @@ struct ExrWriter::Encoder {
   const Pack* pack = nullptr;
   int first_line = 0;
   bool ready = false;
-  std::vector<std::byte> lines;  // for DWA, which has its own encoder
-  std::vector<char> compressed;
+  std::vector<std::byte> lines;      // for DWA, which has its own encoder
+  std::vector<char> compressed;      // ... and its result
+  std::unique_ptr<ZipEncoder> zip;   // for ZIP and ZIPS
+  std::span<const std::byte> result;  // what is to be written
 
   /// The pack step of the pipeline: the caller's last kernels write straight into the packed lines.
   static exr_result_t pack_step(exr_encode_pipeline_t* pipeline) {
@@ -79,6 +83,8 @@ exr_compression_t compression_type(CompressionKind kind) {
   }
   return EXR_COMPRESSION_NONE;
 }
+
+bool is_zip(CompressionKind kind) { return kind == CompressionKind::kZip || kind == CompressionKind::kZips; }
 
 bool is_dwa(CompressionKind kind) { return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab; }
 
@@ -148,10 +154,6 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
                                                   spec.source->pixelAspectRatio(), &centre,
                                                   spec.source->screenWindowWidth(), EXR_LINEORDER_INCREASING_Y,
                                                   compression_type(spec.compression.kind))));
-  const bool zlib = spec.compression.kind == CompressionKind::kZip || spec.compression.kind == CompressionKind::kZips;
-  if (zlib && spec.compression.level >= 0) {
-    SPECTILE_TRY(check(exr_set_zip_compression_level(context_, part, spec.compression.level)));
-  }
   SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
   for (const auto& [name, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
@@ -206,6 +208,7 @@ Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack
   return guarded(path_, [&] {
     encoder.compressed =
         encode_dwa(method, compression_.level, channels, line_bytes_, width_, lines, encoder.lines.data());
+    encoder.result = std::as_bytes(std::span(encoder.compressed));
   });
 }
 
@@ -239,17 +242,22 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   encoder.pipeline.convert_and_pack_fn = &Encoder::pack_step;
   encoder.pipeline.yield_until_ready_fn = nullptr;
   encoder.pipeline.write_fn = &Encoder::keep_step;
+  if (is_zip(compression_.kind)) encoder.pipeline.compress_fn = nullptr;
   code = exr_encoding_run(context_, 0, &encoder.pipeline);
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
-  return {};
+  encoder.result = {static_cast<const std::byte*>(encoder.pipeline.compressed_buffer),
+                    encoder.pipeline.compressed_bytes};
+  if (!is_zip(compression_.kind)) return {};
+  return guarded(path_, [&] {
+    if (!encoder.zip) encoder.zip = std::make_unique<ZipEncoder>(compression_.level > 0 ? compression_.level : 6);
+    encoder.result = encoder.zip->encode(encoder.result);
+  });
 }
 
 Result<void> ExrWriter::write(std::size_t slot) {
   const Encoder& encoder = *encoders_[slot];
-  const bool dwa = is_dwa(compression_.kind);
-  const void* data = dwa ? encoder.compressed.data() : encoder.pipeline.compressed_buffer;
-  const std::size_t bytes = dwa ? encoder.compressed.size() : encoder.pipeline.compressed_bytes;
-  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line, data, bytes);
+  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line,
+                                                     encoder.result.data(), encoder.result.size());
   if (code != EXR_ERR_SUCCESS) return failure("write", code);
   return {};
 }
