@@ -6,7 +6,7 @@
 // The texture is IMAGE repeated over SIZE x SIZE pixels, or a procedural one. For each compression, runs
 // alternate between the tool (whole process: start, reading, arithmetic, encoding, writing) and OpenEXR's C++
 // library with as many threads (from planes in memory, touched before, to a closed file). Medians, their
-// ratio, and the tool's peak memory are printed.
+// ratio, and the tool's peak memory are printed. SPECTILE_BENCH_COMPRESSION=NAME measures one compression only.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -249,7 +249,9 @@ int main(int argc, char** argv) {
                  {"zip:2", Imf::ZIP_COMPRESSION, 2},
                  {"zip:4", Imf::ZIP_COMPRESSION, 4}};
   bool met = true;
+  const char* const only = std::getenv("SPECTILE_BENCH_COMPRESSION");
   for (const auto& method : methods) {
+    if (only != nullptr && std::string(only) != method.name) continue;
     std::vector<double> tool_seconds;
     std::vector<double> library_seconds;
     double peak = 0;

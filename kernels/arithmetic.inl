@@ -102,7 +102,7 @@ void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, st
     std::uint64_t black = ~std::uint64_t{0};
     for (std::size_t band = 0; band < bands && black != 0; ++band) {
       for (std::size_t j = 0; j < kLanes; j += kWidth) {
-        black &= ~(lane_bits(load(spectra + band * kLanes + j) != zero) << j);
+        black &= ~(lane_bits(differ(load(spectra + band * kLanes + j), zero)) << j);
       }
     }
     mask[block] = black;
@@ -113,8 +113,7 @@ void nan_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std:
   for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
     std::uint64_t found = 0;
     for (std::size_t i = 0; i < bands * kLanes; i += kWidth) {
-      const F32 s = load(spectra + i);
-      found |= lane_bits(s != s) << (i % kLanes);
+      found |= lane_bits(is_nan(load(spectra + i))) << (i % kLanes);
     }
     mask[block] = found;
   }
@@ -127,7 +126,7 @@ void equal_mask(std::uint64_t* mask, const float* a, const float* b, std::size_t
     for (std::size_t band = 0; band < bands && equal != 0; ++band) {
       for (std::size_t j = 0; j < kLanes; j += kWidth) {
         const std::size_t i = band * kLanes + j;
-        equal &= ~(lane_bits(load(a + i) != load(b + i)) << j);
+        equal &= ~(lane_bits(differ(load(a + i), load(b + i))) << j);
       }
     }
     mask[block] = equal;

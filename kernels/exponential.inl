@@ -84,7 +84,7 @@ void pow(float* dst, const float* a, float y, std::size_t n) noexcept {
     }
     if (exponent.nan) r = nan;
     r = xsimd::select(x == one, one, r);
-    r = xsimd::select(x != x, x, r);
+    r = xsimd::select(is_nan(x), x, r);
     store(dst + i, r);
   }
 }

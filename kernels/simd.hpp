@@ -60,6 +60,11 @@ inline F32 load_any(const float* p) { return F32::load_unaligned(p); }
 inline void store(float* p, F32 v) { v.store_aligned(p); }
 inline void store_any(float* p, F32 v) { v.store_unaligned(p); }
 
+/// a and b differ, NaN from everything. Not a != b: xsimd 8 makes that an ordered comparison, false for NaN, on AVX
+/// and AVX-512 (and an unordered one on SSE).
+inline Mask differ(F32 a, F32 b) { return ~(a == b); }
+inline Mask is_nan(F32 v) { return ~(v == v); }
+
 inline void stream(float* p, F32 v) {
 #if defined(SPECTILE_KERNEL_AVX512)
   _mm512_stream_ps(p, v);

@@ -24,7 +24,7 @@ class MeasuredSpectrum {
   /// Value at a wavelength; at a step, the value on its right. Units: nm.
   double at(double lambda_nm) const noexcept;
 
-  /// Exact integral from `first_nm` to `last_nm`.
+  /// Exact integral from `first_nm` to `last_nm`; 0 where the latter is not above the former.
   double integral(double first_nm, double last_nm) const noexcept;
 
   /// Exact averages over each band. Shapes: one value a band.
@@ -59,8 +59,8 @@ Result<MeasuredSpectrum> illuminant(std::string_view name);
 /// Names that illuminant() knows.
 std::vector<std::string> illuminant_names();
 
-/// Reads "wavelength_nm,value" lines; blank lines, lines that start with # and a first line of words are passed over;
-/// comma, semicolon, tab or spaces separate.
+/// Reads "wavelength_nm,value" lines; blank lines, lines that start with #, one heading of words before the first sample
+/// and a byte order mark are passed over; comma, semicolon, tab or spaces separate.
 /// Errors: kBadFile with the line's number, kNoPermission.
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path);
 

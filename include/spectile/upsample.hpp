@@ -74,9 +74,10 @@ class Upsampler {
 
 /// Linear sRGB to spectra.
 /// Shapes: rgb three times [lanes]; spectra [block][band][64].
-/// Numbers: homogeneous (twice the RGB is twice the spectrum), no upper limit; relative to the largest component times
-/// the largest basis value the error is below 6 * 2^-24. NaN in any component gives NaN in every band, infinities
-/// give infinities or NaN.
+/// Numbers: homogeneous (twice the RGB is twice the spectrum), no upper limit. The error is below 6 * 2^-24 of the sum
+/// of the weights' magnitudes (|least| + greatest - least: the greatest component where none is negative) times the
+/// largest basis value. NaN in any component gives NaN in every band; infinities give infinities, NaN or, where the
+/// result is minus infinity and negative samples are not kept, 0.
 /// Errors: kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
                            Stores stores = Stores::kAuto, const Execution& how = {});

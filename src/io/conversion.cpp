@@ -2,6 +2,7 @@
 #include "src/io/conversion.hpp"
 
 #include <algorithm>
+#include <future>
 
 #include "src/base/errors.hpp"
 #include "src/ops/tiles.hpp"
@@ -57,6 +58,7 @@ class Run {
         stop_at_(stop_at) {}
 
   Result<LineStats> run(int threads) {
+    read_ahead_ = threads > 1;
     tiles::ordered_pipeline(
         slots_.size(), threads, [this](std::size_t slot) { return produce(slots_[slot]); },
         [this](std::size_t slot) { transform(slot); }, [this](std::size_t slot) { consume(slot); });
@@ -74,7 +76,7 @@ class Run {
     const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
     if (!strip_ || !strip_->holds(first, lines)) {
       strip_.reset();
-      auto strip = job_.read(first, std::min(strip_lines_, writer_.height() - first));
+      auto strip = next_strip(first);
       if (!strip) return fail(strip.error());
       strip_ = *std::move(strip);
     }
@@ -82,6 +84,18 @@ class Run {
     slot.chunk = next_chunk_++;
     slot.stats = {};
     return true;
+  }
+
+  /// The strip that starts at `first`, and the reading of the one after it under way.
+  Result<std::shared_ptr<Strip>> next_strip(int first) {
+    auto strip = ahead_.valid() ? ahead_.get() : job_.read(first, std::min(strip_lines_, writer_.height() - first));
+    const int after = first + strip_lines_;
+    if (strip && read_ahead_ && after < writer_.height()) {
+      ahead_ = std::async(std::launch::async, [this, after] {
+        return job_.read(after, std::min(strip_lines_, writer_.height() - after));
+      });
+    }
+    return strip;
   }
 
   void transform(std::size_t index) {
@@ -138,6 +152,8 @@ class Run {
   const ImageOptions& options_;
   const std::function<bool(const LineStats&)>& stop_at_;
   std::shared_ptr<Strip> strip_;
+  bool read_ahead_ = false;
+  std::future<Result<std::shared_ptr<Strip>>> ahead_;  // its destructor waits for the reading to end
   int next_chunk_ = 0;
   LineStats total_;
   std::atomic<bool> failed_ = false;

@@ -111,11 +111,15 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, co
 }
 
 Error ExrWriter::failure(const char* doing, exr_result_t code) {
-  if (!io_result_) return io_result_.error();
   if (code == EXR_ERR_OUT_OF_MEMORY) return make_error(ErrorCode::kOutOfMemory, "{}: out of memory", path_);
+  const std::scoped_lock lock(message_mutex_);
   std::string text = last_message_.empty() ? exr_get_default_error_message(code) : last_message_;
   std::replace(text.begin(), text.end(), '\n', ' ');
   return make_error(ErrorCode::kBadFile, "{}: cannot {}: {}", path_, doing, text);
+}
+
+Error ExrWriter::write_failure(const char* doing, exr_result_t code) {
+  return io_result_ ? failure(doing, code) : io_result_.error();
 }
 
 Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, std::size_t slots) {
@@ -125,7 +129,9 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   init.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* message) {
     void* user = nullptr;
     if (exr_get_user_data(context, &user) == EXR_ERR_SUCCESS && user != nullptr) {
-      static_cast<ExrWriter*>(user)->last_message_ = message;
+      auto* self = static_cast<ExrWriter*>(user);
+      const std::scoped_lock lock(self->message_mutex_);
+      self->last_message_ = message;
     }
   };
   init.write_fn = [](exr_const_context_t, void* user, const void* data, std::uint64_t bytes, std::uint64_t offset,
@@ -138,7 +144,7 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
     return static_cast<std::int64_t>(bytes);
   };
   const auto check = [&](exr_result_t code) -> Result<void> {
-    if (code != EXR_ERR_SUCCESS) return failure("write the header", code);
+    if (code != EXR_ERR_SUCCESS) return write_failure("write the header", code);
     return {};
   };
   SPECTILE_TRY(check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &init)));
@@ -258,7 +264,7 @@ Result<void> ExrWriter::write(std::size_t slot) {
   const Encoder& encoder = *encoders_[slot];
   const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line,
                                                      encoder.result.data(), encoder.result.size());
-  if (code != EXR_ERR_SUCCESS) return failure("write", code);
+  if (code != EXR_ERR_SUCCESS) return write_failure("write", code);
   return {};
 }
 
@@ -270,7 +276,7 @@ Result<void> ExrWriter::commit() {
   const exr_result_t code = exr_finish(&context_);
   context_ = nullptr;
   if (!io_result_) return io_result_;
-  if (code != EXR_ERR_SUCCESS) return failure("finish", code);
+  if (code != EXR_ERR_SUCCESS) return write_failure("finish", code);
   return file_.commit();
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ class ExrWriter {
   explicit ExrWriter(AtomicFile file);
   Result<void> start(const std::string& path, const ImageSpec& spec, std::size_t slots);
   Error failure(const char* doing, exr_result_t code);
+  Error write_failure(const char* doing, exr_result_t code);
   Result<void> encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack);
   struct Encoder;
 
@@ -84,7 +86,8 @@ class ExrWriter {
   int first_y_ = 0;
   int lines_per_chunk_ = 1;
   std::uint64_t bytes_written_ = 0;
-  Result<void> io_result_;   // what the system said when a write failed
+  Result<void> io_result_;    // what the system said when a write failed; only the writing thread touches it
+  std::mutex message_mutex_;  // encoders on several threads may complain at once
   std::string last_message_;  // what OpenEXR said last
 };
 

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -17,6 +18,7 @@ namespace spectile {
 namespace {
 
 constexpr std::string_view kSeparators = ",; \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// The next number of a line, after separators; nothing where there is none.
 std::optional<double> next_number(std::string_view& line) {
@@ -41,8 +43,10 @@ Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
   std::vector<double> wavelengths;
   std::vector<double> values;
   std::string text;
+  bool heading_seen = false;
   for (int number = 1; std::getline(file, text); ++number) {
     std::string_view line(text);
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
     line.remove_prefix(std::min(line.find_first_not_of(kSeparators), line.size()));
     if (line.empty() || line.front() == '#') continue;
     const auto wavelength = next_number(line);
@@ -50,9 +54,15 @@ Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
     if (wavelength) value = next_number(line);
     line.remove_prefix(std::min(line.find_first_not_of(kSeparators), line.size()));
     if (!value || !line.empty()) {
-      if (wavelengths.empty() && !wavelength) continue;  // a heading
+      if (wavelengths.empty() && !wavelength && !heading_seen) {
+        heading_seen = true;
+        continue;
+      }
       return make_error(ErrorCode::kBadFile, "{}: line {}: \"{}\" is not a wavelength in nm and a value", path, number,
                         text);
+    }
+    if (!std::isfinite(*wavelength) || !std::isfinite(*value)) {
+      return make_error(ErrorCode::kBadFile, "{}: line {}: \"{}\" is not finite", path, number, text);
     }
     wavelengths.push_back(*wavelength);
     values.push_back(*value);
