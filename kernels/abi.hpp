@@ -4,7 +4,8 @@
 //  - Float arrays are 64-byte aligned. A count `n` of floats is a multiple of kLanes. A batch of spectra is
 //    [blocks][bands][kLanes].
 //  - `dst` may be the same array as a source, never a shifted overlap of it.
-//  - Formulas are evaluated as written: one rounding per operation, no contraction, sums in ascending order of the
+//  - Formulas are evaluated as written: one rounding per operation, no contraction, sums in ascending order
+//  of the
 //    band. Therefore every table gives the same bits.
 //  - NaN goes through arithmetic as IEEE 754 says (its payload is not specified).
 #pragma once
@@ -43,14 +44,15 @@ struct KernelTable {
   void (*divide)(float* dst, const float* a, const float* b, std::size_t n) noexcept;    ///< a / b
   /// b == 0 ? 0 : a / b (a NaN divisor gives NaN)
   void (*divide_or_zero)(float* dst, const float* a, const float* b, std::size_t n) noexcept;
-  void (*negate)(float* dst, const float* a, std::size_t n) noexcept;          ///< a with its sign bit flipped
+  void (*negate)(float* dst, const float* a, std::size_t n) noexcept;  ///< a with its sign bit flipped
   void (*scale)(float* dst, const float* a, float s, std::size_t n) noexcept;  ///< a * s
   /// (a * b) + c, two roundings
   void (*multiply_add)(float* dst, const float* a, const float* b, const float* c, std::size_t n) noexcept;
   /// ((1 - t) * a) + (t * b), with 1 - t rounded once
   void (*lerp)(float* dst, const float* a, const float* b, float t, std::size_t n) noexcept;
   void (*sqrt)(float* dst, const float* a, std::size_t n) noexcept;  ///< correctly rounded; below 0 gives NaN
-  /// e to the a, computed in double and rounded once: error below 0.501 ULP on the whole range, denormals included
+  /// e to the a, computed in double and rounded once: error below 0.501 ULP on the whole range, denormals
+  /// included
   void (*exp)(float* dst, const float* a, std::size_t n) noexcept;
   /// a to the power y as C's pow defines it, special values included: error below 0.501 ULP
   void (*pow)(float* dst, const float* a, float y, std::size_t n) noexcept;
@@ -63,7 +65,8 @@ struct KernelTable {
   /// greatest sample; NaN passed over, a lane of nothing but NaN gives -infinity
   void (*maximum)(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept;
   /// bit i of mask[block]: every sample of lane i is +0 or -0
-  void (*black_mask)(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept;
+  void (*black_mask)(std::uint64_t* mask, const float* spectra, std::size_t bands,
+                     std::size_t blocks) noexcept;
   /// bit i of mask[block]: some sample of lane i is NaN
   void (*nan_mask)(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept;
   /// bit i of mask[block]: a == b in every band of lane i (NaN equals nothing, +0 equals -0)
@@ -78,15 +81,17 @@ struct KernelTable {
   void (*project)(float* x, float* y, float* z, const float* spectra, const float* weights, std::size_t bands,
                   std::size_t blocks) noexcept;
   /// dst_i = ((m[3i] * a0) + (m[3i+1] * a1)) + (m[3i+2] * a2)
-  void (*transform3)(float* const dst[3], const float* const src[3], const float m[9], std::size_t n) noexcept;
+  void (*transform3)(float* const dst[3], const float* const src[3], const float m[9],
+                     std::size_t n) noexcept;
 
-  // Smits upsampling. With w0 = least of r, g, b, w1 = middle - least, w2 = greatest - middle, and the secondary s
-  // (cyan where r is least, else magenta where g is, else yellow) and the primary p (red where r is greatest, else
-  // green where g is, else blue): sample = ((w0 * white) + (w1 * basis_s)) + (w2 * basis_p), then limited from below:
-  // sample < lowest ? lowest : sample. table [bands][kSmitsRow], 32-byte aligned.
+  // Smits upsampling. With w0 = least of r, g, b, w1 = middle - least, w2 = greatest - middle, and the
+  // secondary s (cyan where r is least, else magenta where g is, else yellow) and the primary p (red where r
+  // is greatest, else green where g is, else blue): sample = ((w0 * white) + (w1 * basis_s)) + (w2 *
+  // basis_p), then limited from below: sample < lowest ? lowest : sample. table [bands][kSmitsRow], 32-byte
+  // aligned.
   /// dst [blocks][bands][kLanes]; with `stream`, stores that go round the caches
-  void (*smits_blocks)(float* dst, const float* const rgb[3], const float* table, float lowest, std::size_t bands,
-                       std::size_t blocks, bool stream) noexcept;
+  void (*smits_blocks)(float* dst, const float* const rgb[3], const float* table, float lowest,
+                       std::size_t bands, std::size_t blocks, bool stream) noexcept;
   /// rows[band] takes n floats, at any address, for any n; rgb readable up to n rounded up to kLanes
   void (*smits_rows_float)(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                            std::size_t bands, std::size_t n) noexcept;
@@ -95,8 +100,10 @@ struct KernelTable {
                           std::size_t bands, std::size_t n) noexcept;
 
   // Conversion. Sources and targets of any alignment, n a multiple of kLanes.
-  void (*half_to_float)(float* dst, const std::uint16_t* src, std::size_t n) noexcept;  ///< exact; NaN made quiet
-  void (*float_to_half)(std::uint16_t* dst, const float* src, std::size_t n) noexcept;  ///< nearest even; NaN quiet
+  void (*half_to_float)(float* dst, const std::uint16_t* src,
+                        std::size_t n) noexcept;  ///< exact; NaN made quiet
+  void (*float_to_half)(std::uint16_t* dst, const float* src,
+                        std::size_t n) noexcept;  ///< nearest even; NaN quiet
   /// adds a row's counts to *scan
   void (*scan_rgb)(RgbScan* scan, const float* const rgb[3], std::size_t n) noexcept;
 };

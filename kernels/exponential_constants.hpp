@@ -23,15 +23,16 @@ inline constexpr double kExponentLimit = 1000.0;
 // Taylor series of e^x: 12 terms leave less than 7e-15 for |x| <= ln(2)/2.
 inline constexpr std::size_t kExpTerms = 12;
 inline constexpr double kExpSeries[kExpTerms] = {
-    1.0,           1.0,           1.0 / 2.0,      1.0 / 6.0,       1.0 / 24.0,       1.0 / 120.0,
-    1.0 / 720.0,   1.0 / 5040.0,  1.0 / 40320.0,  1.0 / 362880.0,  1.0 / 3628800.0,  1.0 / 39916800.0};
+    1.0,         1.0,          1.0 / 2.0,     1.0 / 6.0,      1.0 / 24.0,      1.0 / 120.0,
+    1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40320.0, 1.0 / 362880.0, 1.0 / 3628800.0, 1.0 / 39916800.0};
 
 // Taylor series of atanh(s)/s in s^2: 9 terms leave less than 1e-15 for |s| <= (sqrt(2)-1)/(sqrt(2)+1).
 inline constexpr std::size_t kAtanhTerms = 9;
 inline constexpr double kAtanhSeries[kAtanhTerms] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0, 1.0 / 9.0,
                                                      1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0};
 
-/// What an exponent y means for the special values of the base, as C's pow defines them (C17 7.12.7.4, F.10.4.4).
+/// What an exponent y means for the special values of the base, as C's pow defines them (C17 7.12.7.4,
+/// F.10.4.4).
 struct PowExponent {
   double factor;      ///< y, with infinities replaced by a finite number beyond every range
   bool zero;          ///< y is +0 or -0: the result is 1 whatever the base

@@ -1,12 +1,11 @@
-// The architecture alias and the few seams that xsimd lacks: run-time table permute, half conversion, streaming
-// store, widening to double, and maxima with a stated operand order.
+// The architecture alias and the few seams that xsimd lacks: run-time table permute, half conversion,
+// streaming store, widening to double, and maxima with a stated operand order.
 #pragma once
-
-#include <xsimd/xsimd.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <xsimd/xsimd.hpp>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -30,7 +29,8 @@ using Arch = xsimd::neon64;
 #error "compile with one of SPECTILE_KERNEL_AVX512, _AVX2, _SSE42, _NEON"
 #endif
 
-// Internal linkage throughout: a function of one instruction set must never be what another one's caller links to.
+// Internal linkage throughout: a function of one instruction set must never be what another one's caller
+// links to.
 namespace {
 
 using F32 = xsimd::batch<float, Arch>;
@@ -51,19 +51,31 @@ inline xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& v) {
 #if XSIMD_VERSION_MAJOR >= 10
   return xsimd::bitwise_cast<To>(v);
 #else
-  return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(v);
+  return xsimd::bitwise_cast<xsimd::batch<To, Arch> >(v);
 #endif
 }
 
-inline F32 load(const float* p) { return F32::load_aligned(p); }
-inline F32 load_any(const float* p) { return F32::load_unaligned(p); }
-inline void store(float* p, F32 v) { v.store_aligned(p); }
-inline void store_any(float* p, F32 v) { v.store_unaligned(p); }
+inline F32 load(const float* p) {
+  return F32::load_aligned(p);
+}
+inline F32 load_any(const float* p) {
+  return F32::load_unaligned(p);
+}
+inline void store(float* p, F32 v) {
+  v.store_aligned(p);
+}
+inline void store_any(float* p, F32 v) {
+  v.store_unaligned(p);
+}
 
-/// a and b differ, NaN from everything. Not a != b: xsimd 8 makes that an ordered comparison, false for NaN, on AVX
-/// and AVX-512 (and an unordered one on SSE).
-inline Mask differ(F32 a, F32 b) { return ~(a == b); }
-inline Mask is_nan(F32 v) { return ~(v == v); }
+/// a and b differ, NaN from everything. Not a != b: xsimd 8 makes that an ordered comparison, false for NaN,
+/// on AVX and AVX-512 (and an unordered one on SSE).
+inline Mask differ(F32 a, F32 b) {
+  return ~(a == b);
+}
+inline Mask is_nan(F32 v) {
+  return ~(v == v);
+}
 
 inline void stream(float* p, F32 v) {
 #if defined(SPECTILE_KERNEL_AVX512)
@@ -118,24 +130,42 @@ inline std::uint64_t lane_bits(Mask m) {
 #endif
 }
 
-// --- A Smits row as a register, and indices prepared for its permute ---------------------------------------------
+// --- A Smits row as a register, and indices prepared for its permute
+// ---------------------------------------------
 
 #if defined(SPECTILE_KERNEL_AVX512)
 using Row = __m512;
 using Index = __m512i;
-inline Row load_row(const float* row) { return _mm512_broadcast_f32x8(_mm256_load_ps(row)); }
-inline Index prepare(I32 index) { return index; }
-inline F32 secondary(const Row& row, const Index& index) { return _mm512_permutexvar_ps(index, row); }
-inline F32 primary(const Row& row, const Index& index) { return _mm512_permutexvar_ps(index, row); }
+inline Row load_row(const float* row) {
+  return _mm512_broadcast_f32x8(_mm256_load_ps(row));
+}
+inline Index prepare(I32 index) {
+  return index;
+}
+inline F32 secondary(const Row& row, const Index& index) {
+  return _mm512_permutexvar_ps(index, row);
+}
+inline F32 primary(const Row& row, const Index& index) {
+  return _mm512_permutexvar_ps(index, row);
+}
 #elif defined(SPECTILE_KERNEL_AVX2)
 using Row = __m256;
 using Index = __m256i;
-inline Row load_row(const float* row) { return _mm256_load_ps(row); }
-inline Index prepare(I32 index) { return index; }
-inline F32 secondary(const Row& row, const Index& index) { return _mm256_permutevar8x32_ps(row, index); }
-inline F32 primary(const Row& row, const Index& index) { return _mm256_permutevar8x32_ps(row, index); }
+inline Row load_row(const float* row) {
+  return _mm256_load_ps(row);
+}
+inline Index prepare(I32 index) {
+  return index;
+}
+inline F32 secondary(const Row& row, const Index& index) {
+  return _mm256_permutevar8x32_ps(row, index);
+}
+inline F32 primary(const Row& row, const Index& index) {
+  return _mm256_permutevar8x32_ps(row, index);
+}
 #elif defined(SPECTILE_KERNEL_SSE42)
-// Two registers of four entries; a byte shuffle takes the low two bits of the index, spread over the lane's bytes.
+// Two registers of four entries; a byte shuffle takes the low two bits of the index, spread over the lane's
+// bytes.
 struct Row {
   __m128i low, high;
 };
@@ -173,7 +203,8 @@ inline F32 primary(const Row& row, const Index& index) {
 }
 #endif
 
-// --- Half conversion ----------------------------------------------------------------------------------------------
+// --- Half conversion
+// ----------------------------------------------------------------------------------------------
 
 #if defined(SPECTILE_KERNEL_AVX512)
 inline F32 load_half(const std::uint16_t* p) {
@@ -193,7 +224,9 @@ inline void store_half(std::uint16_t* p, F32 v) {
 inline F32 load_half(const std::uint16_t* p) {
   return vcvt_f32_f16(vreinterpret_f16_u16(vld1_u16(p)));
 }
-inline void store_half(std::uint16_t* p, F32 v) { vst1_u16(p, vreinterpret_u16_f16(vcvt_f16_f32(v))); }
+inline void store_half(std::uint16_t* p, F32 v) {
+  vst1_u16(p, vreinterpret_u16_f16(vcvt_f16_f32(v)));
+}
 #else
 // SSE4.2 has no half conversion: integer arithmetic on the bits, a case each for normal, denormal and NaN.
 inline F32 load_half(const std::uint16_t* p) {
@@ -217,11 +250,13 @@ inline void store_half(std::uint16_t* p, F32 v) {
   const __m128i bits = _mm_castps_si128(v);
   const __m128i sign = _mm_and_si128(_mm_srli_epi32(bits, 16), _mm_set1_epi32(0x8000));
   const __m128i magnitude = _mm_and_si128(bits, _mm_set1_epi32(0x7FFFFFFF));
-  // Normal: rebias, then round to nearest even by adding half of the last place less one, plus its lowest bit.
+  // Normal: rebias, then round to nearest even by adding half of the last place less one, plus its lowest
+  // bit.
   const __m128i odd = _mm_and_si128(_mm_srli_epi32(magnitude, 13), _mm_set1_epi32(1));
   const __m128i rounding = _mm_add_epi32(_mm_set1_epi32(static_cast<int>(0xC8000FFFU)), odd);
   const __m128i normal = _mm_srli_epi32(_mm_add_epi32(magnitude, rounding), 13);
-  // Below 2^-14: adding 1/2 in float rounds at the half's last place, and leaves the mantissa in the low bits.
+  // Below 2^-14: adding 1/2 in float rounds at the half's last place, and leaves the mantissa in the low
+  // bits.
   const __m128 half = _mm_set1_ps(0.5F);
   const __m128i tiny =
       _mm_sub_epi32(_mm_castps_si128(_mm_add_ps(_mm_castsi128_ps(magnitude), half)), _mm_castps_si128(half));
@@ -237,28 +272,49 @@ inline void store_half(std::uint16_t* p, F32 v) {
 }
 #endif
 
-// --- Float to double and back, in two halves ----------------------------------------------------------------------
+// --- Float to double and back, in two halves
+// ----------------------------------------------------------------------
 
 #if defined(SPECTILE_KERNEL_AVX512)
-inline F64 widen_low(F32 v) { return _mm512_cvtps_pd(_mm512_castps512_ps256(v)); }
-inline F64 widen_high(F32 v) { return _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1)); }
+inline F64 widen_low(F32 v) {
+  return _mm512_cvtps_pd(_mm512_castps512_ps256(v));
+}
+inline F64 widen_high(F32 v) {
+  return _mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1));
+}
 inline F32 narrow(F64 low, F64 high) {
   return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high), 1);
 }
 #elif defined(SPECTILE_KERNEL_AVX2)
-inline F64 widen_low(F32 v) { return _mm256_cvtps_pd(_mm256_castps256_ps128(v)); }
-inline F64 widen_high(F32 v) { return _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1)); }
+inline F64 widen_low(F32 v) {
+  return _mm256_cvtps_pd(_mm256_castps256_ps128(v));
+}
+inline F64 widen_high(F32 v) {
+  return _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1));
+}
 inline F32 narrow(F64 low, F64 high) {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high), 1);
 }
 #elif defined(SPECTILE_KERNEL_SSE42)
-inline F64 widen_low(F32 v) { return _mm_cvtps_pd(v); }
-inline F64 widen_high(F32 v) { return _mm_cvtps_pd(_mm_movehl_ps(v, v)); }
-inline F32 narrow(F64 low, F64 high) { return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high)); }
+inline F64 widen_low(F32 v) {
+  return _mm_cvtps_pd(v);
+}
+inline F64 widen_high(F32 v) {
+  return _mm_cvtps_pd(_mm_movehl_ps(v, v));
+}
+inline F32 narrow(F64 low, F64 high) {
+  return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
 #elif defined(SPECTILE_KERNEL_NEON)
-inline F64 widen_low(F32 v) { return vcvt_f64_f32(vget_low_f32(v)); }
-inline F64 widen_high(F32 v) { return vcvt_high_f64_f32(v); }
-inline F32 narrow(F64 low, F64 high) { return vcvt_high_f32_f64(vcvt_f32_f64(low), high); }
+inline F64 widen_low(F32 v) {
+  return vcvt_f64_f32(vget_low_f32(v));
+}
+inline F64 widen_high(F32 v) {
+  return vcvt_high_f64_f32(v);
+}
+inline F32 narrow(F64 low, F64 high) {
+  return vcvt_high_f32_f64(vcvt_f32_f64(low), high);
+}
 #endif
 
 }  // namespace

@@ -6,7 +6,8 @@
 namespace spectile::kernels {
 namespace {
 
-/// The mixture that makes one vector of pixels: three weights, and which secondary and primary two of them go to.
+/// The mixture that makes one vector of pixels: three weights, and which secondary and primary two of them go
+/// to.
 struct Mixture {
   F32 white, second, first;
   Index second_index, first_index;
@@ -25,19 +26,20 @@ inline Mixture mixture(F32 r, F32 g, F32 b) noexcept {
   const F32 first_of_rg = xsimd::select(g < r, F32(4.0F), F32(5.0F));
   const F32 second = xsimd::select(b < low_rg, F32(3.0F), second_of_rg);
   const F32 first = xsimd::select(high_rg < b, F32(6.0F), first_of_rg);
-  return {least, middle - least, most - middle, prepare(xsimd::to_int(second)), prepare(xsimd::to_int(first))};
+  return {least, middle - least, most - middle, prepare(xsimd::to_int(second)),
+          prepare(xsimd::to_int(first))};
 }
 
 inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexcept {
-  const F32 sample = (m.white * white + m.second * secondary(row, m.second_index)) +
-                     m.first * primary(row, m.first_index);
+  const F32 sample =
+      (m.white * white + m.second * secondary(row, m.second_index)) + m.first * primary(row, m.first_index);
   return limit_below(lowest, sample);
 }
 
 /// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at.
 template <class Put>
-inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, F32 lowest, std::size_t bands,
-                        Put put) noexcept {
+inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, F32 lowest,
+                        std::size_t bands, Put put) noexcept {
   for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
     Mixture m[kGroup];
     for (std::size_t j = 0; j < kGroup; ++j) {
@@ -58,8 +60,9 @@ void smits_blocks(float* dst, const float* const rgb[3], const float* table, flo
   const F32 low(lowest);
   for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
     if (streaming) {
-      smits_lanes(rgb, block * kLanes, table, low, bands,
-                  [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
+      smits_lanes(rgb, block * kLanes, table, low, bands, [dst](std::size_t band, std::size_t lane, F32 v) {
+        stream(dst + band * kLanes + lane, v);
+      });
     } else {
       smits_lanes(rgb, block * kLanes, table, low, bands,
                   [dst](std::size_t band, std::size_t lane, F32 v) { store(dst + band * kLanes + lane, v); });
@@ -68,8 +71,12 @@ void smits_blocks(float* dst, const float* const rgb[3], const float* table, flo
   if (streaming) stream_fence();
 }
 
-inline void put_sample(float* p, F32 v) noexcept { store_any(p, v); }
-inline void put_sample(std::uint16_t* p, F32 v) noexcept { store_half(p, limit_above(F32(kHalfMax), v)); }
+inline void put_sample(float* p, F32 v) noexcept {
+  store_any(p, v);
+}
+inline void put_sample(std::uint16_t* p, F32 v) noexcept {
+  store_half(p, limit_above(F32(kHalfMax), v));
+}
 
 template <class Sample>
 inline void smits_rows(void* const* rows, const float* const rgb[3], const float* table, float lowest,
@@ -94,7 +101,8 @@ inline void smits_rows(void* const* rows, const float* const rgb[3], const float
     const float* entry = table + band * kSmitsRow;
     const Row row = load_row(entry);
     const F32 white(entry[0]);
-    for (std::size_t j = 0; j * kWidth < rest; ++j) put_sample(tail + j * kWidth, mixed(m[j], row, white, low));
+    for (std::size_t j = 0; j * kWidth < rest; ++j)
+      put_sample(tail + j * kWidth, mixed(m[j], row, white, low));
     std::memcpy(static_cast<Sample*>(rows[band]) + whole, tail, rest * sizeof(Sample));
   }
 }

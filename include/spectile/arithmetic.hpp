@@ -1,27 +1,30 @@
 // Element-wise arithmetic over whole batches of spectra, and what each lane holds over its bands.
 //
-// Rules common to all. Shapes: every batch has the same lanes and bands; `out` may be one of the inputs. Numbers:
-// float32 as IEEE 754 says, each operation rounded once; NaN and infinities go through. Errors: kBandsMismatch,
-// kSizeMismatch, and those of active_isa(). Padding lanes are computed too and mean nothing.
+// Rules common to all. Shapes: every batch has the same lanes and bands; `out` may be one of the inputs.
+// Numbers: float32 as IEEE 754 says, each operation rounded once; NaN and infinities go through. Errors:
+// kBandsMismatch, kSizeMismatch, and those of active_isa(). Padding lanes are computed too and mean nothing.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <vector>
-
 #include <spectile/result.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <vector>
 
 namespace spectile {
 
 /// out = a + b.
-Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how = {});
+Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                 const Execution& how = {});
 /// out = a - b.
-Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how = {});
+Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                      const Execution& how = {});
 /// out = a * b.
-Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how = {});
+Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                      const Execution& how = {});
 /// out = a / b.
-Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how = {});
+Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                    const Execution& how = {});
 /// out = b is 0 ? 0 : a / b; a NaN divisor gives NaN.
 Result<void> divide_or_zero(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
                             const Execution& how = {});
@@ -30,8 +33,8 @@ Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Executio
 /// out = a * factor.
 Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, const Execution& how = {});
 /// out = (a * b) + c, two roundings.
-Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c, SampledSpectraSpan out,
-                          const Execution& how = {});
+Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
+                          SampledSpectraSpan out, const Execution& how = {});
 /// out = (1 - t) * a + t * b; exactly a at t = 0 and b at t = 1 for finite samples.
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
                   const Execution& how = {});
@@ -41,7 +44,8 @@ Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution&
 Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& how = {});
 /// out = a to the exponent, error below 0.501 ULP; special values as C's pow.
 Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& how = {});
-/// out = a limited to [lowest, highest]; NaN stays. Errors: also kBadArgument for lowest > highest or NaN limits.
+/// out = a limited to [lowest, highest]; NaN stays. Errors: also kBadArgument for lowest > highest or NaN
+/// limits.
 Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out,
                    const Execution& how = {});
 /// out = a limited to 0 and above; NaN stays.

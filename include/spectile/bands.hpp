@@ -4,11 +4,10 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <spectile/result.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <spectile/result.hpp>
 
 namespace spectile {
 
@@ -30,8 +29,8 @@ class Bands {
 
   /// Uniform bands of `step_nm` from `first_nm` to `last_nm`.
   /// Units: nm. The range must hold a whole number of steps (to 1e-6 of a step).
-  /// Errors: kBadArgument for edges not finite or not positive, an empty range, a step that does not divide it,
-  /// or more than kMaxBands bands.
+  /// Errors: kBadArgument for edges not finite or not positive, an empty range, a step that does not divide
+  /// it, or more than kMaxBands bands.
   static Result<Bands> uniform(double first_nm, double last_nm, double step_nm);
 
   /// Any list of bands, in ascending order, gaps allowed.

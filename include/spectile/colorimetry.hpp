@@ -3,12 +3,11 @@
 
 #include <array>
 #include <span>
-#include <vector>
-
 #include <spectile/bands.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/result.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <vector>
 
 namespace spectile {
 
@@ -57,9 +56,9 @@ class Projector {
 
 /// Projects spectra to CIE XYZ.
 /// Shapes: spectra [block][band][64]; xyz three times [lanes].
-/// Numbers: sums in ascending band order, relative error at most (bands + 2) * 2^-24 of the sum of magnitudes; NaN and
-/// infinities go through.
-/// Errors: kBandsMismatch when the projector was built for other bands; kSizeMismatch.
+/// Numbers: sums in ascending band order, relative error at most (bands + 2) * 2^-24 of the sum of
+/// magnitudes; NaN and infinities go through. Errors: kBandsMismatch when the projector was built for other
+/// bands; kSizeMismatch.
 Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
                      const Execution& how = {});
 
@@ -79,7 +78,8 @@ const Matrix3& xyz_to_srgb_matrix();
 
 /// out = matrix applied to each lane. Errors: kSizeMismatch.
 Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& how = {});
-/// XYZ to linear sRGB. White assumed: D65 (0.3127, 0.3290); no adaptation; values outside the gamut stay as they are.
+/// XYZ to linear sRGB. White assumed: D65 (0.3127, 0.3290); no adaptation; values outside the gamut stay as
+/// they are.
 Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& how = {});
 /// Linear sRGB to XYZ. White assumed: D65 (0.3127, 0.3290); no adaptation.
 Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& how = {});

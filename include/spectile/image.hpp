@@ -1,22 +1,21 @@
 // Whole images: an RGB EXR to a spectral EXR, a spectral EXR to colour, and what a file holds.
 //
-// Rules common to all. Memory stays bounded whatever the image's size. An output appears at its path whole or not at
-// all. Errors name the file: kBadFile (missing, damaged, deep, without the channels needed), kNoPermission, kNoSpace,
-// kNonFinite, kCancelled, kBadArgument, kUnknownName, and those of active_isa().
+// Rules common to all. Memory stays bounded whatever the image's size. An output appears at its path whole or
+// not at all. Errors name the file: kBadFile (missing, damaged, deep, without the channels needed),
+// kNoPermission, kNoSpace, kNonFinite, kCancelled, kBadArgument, kUnknownName, and those of active_isa().
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <spectile/bands.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/result.hpp>
 #include <spectile/upsample.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace spectile {
 
@@ -29,7 +28,8 @@ enum class CompressionKind { kNone, kRle, kZips, kZip, kPiz, kPxr24, kB44, kB44a
 /// A compression method and its level, for those that have one.
 struct Compression {
   CompressionKind kind = CompressionKind::kZip;
-  /// zip, zips: zlib's, 1 (fast) to 9 (small); dwaa, dwab: 1 to 500, loss that grows with it. -1 for OpenEXR's default.
+  /// zip, zips: zlib's, 1 (fast) to 9 (small); dwaa, dwab: 1 to 500, loss that grows with it. -1 for
+  /// OpenEXR's default.
   int level = 2;
 
   /// Reads "NAME" or "NAME:LEVEL". Errors: kUnknownName, kBadArgument.
@@ -99,23 +99,26 @@ struct ImageReport {
   std::uint64_t limited_pixels = 0;    ///< with a sample beyond the largest half, written as that
   std::uint64_t bytes_written = 0;
   double seconds = 0;
-  std::string color_space;            ///< what the input's RGB was taken for
-  std::vector<std::string> notes;     ///< what was left out, in words
-  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
+  std::string color_space;         ///< what the input's RGB was taken for
+  std::vector<std::string> notes;  ///< what was left out, in words
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  }
 };
 
-/// Turns an RGB image into a spectral one. R, G, B stay as preview; alpha, other channels and attributes pass through.
+/// Turns an RGB image into a spectral one. R, G, B stay as preview; alpha, other channels and attributes pass
+/// through.
 ///
-/// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or without chroma.
-/// RGB is linear, of the space that the attributes colorInteropID or chromaticities name, else sRGB's. Whites: a
-/// reflectance's white is adapted (Bradford) from the space's white to D65, so that RGB 1, 1, 1 stays the white
-/// reflector; light is not adapted, its XYZ stays what it was.
-/// Output: the layout of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021.
+/// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or
+/// without chroma. RGB is linear, of the space that the attributes colorInteropID or chromaticities name,
+/// else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's white to D65, so that
+/// RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it was. Output: the layout
+/// of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021.
 Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
                                    const UpsampleImageOptions& options = {});
 
-/// Turns a spectral image into linear sRGB (white D65, no adaptation), XYZ or luminance; alpha and other channels pass
-/// through.
+/// Turns a spectral image into linear sRGB (white D65, no adaptation), XYZ or luminance; alpha and other
+/// channels pass through.
 Result<ImageReport> project_image(const std::string& input, const std::string& output,
                                   const ProjectImageOptions& options = {});
 
@@ -126,8 +129,8 @@ struct RgbImage {
   ColorLanes rgb;
 };
 
-/// Reads the R, G, B of an image (see upsample_image for what can be read), as they are in the file: not converted to
-/// sRGB. Needs memory for the whole image.
+/// Reads the R, G, B of an image (see upsample_image for what can be read), as they are in the file: not
+/// converted to sRGB. Needs memory for the whole image.
 Result<RgbImage> read_rgb_image(const std::string& path, const std::string& layer = {}, int threads = 0);
 
 /// Writes an RGB image as linear sRGB. Shapes: rgb holds width * height lanes. Errors: kSizeMismatch too.
@@ -153,33 +156,34 @@ struct ImageInfo {
   int parts = 1;
   bool tiled = false;
   std::string compression;
-  std::vector<ChannelInfo> channels;    ///< of the first flat part; spectral ones last, by wavelength
-  std::optional<Quantity> quantity;     ///< set for a spectral image
-  std::optional<Bands> bands;           ///< set for a spectral image
+  std::vector<ChannelInfo> channels;  ///< of the first flat part; spectral ones last, by wavelength
+  std::optional<Quantity> quantity;   ///< set for a spectral image
+  std::optional<Bands> bands;         ///< set for a spectral image
   std::vector<std::pair<std::string, std::string>> attributes;  ///< texts, and others by type
-  std::uint64_t nonfinite = 0;  ///< samples, over all channels
+  std::uint64_t nonfinite = 0;                                  ///< samples, over all channels
   std::uint64_t negative = 0;
   std::vector<float> pixel;  ///< the pixel asked for: a spectrum, or one value a channel
 };
 
 /// Reads a whole file and says what it holds. `pixel` counts from the data window's upper left corner.
-Result<ImageInfo> inspect_image(const std::string& path, std::optional<std::array<int, 2>> pixel = std::nullopt,
-                                int threads = 0);
+Result<ImageInfo> inspect_image(const std::string& path,
+                                std::optional<std::array<int, 2>> pixel = std::nullopt, int threads = 0);
 
 /// How kernels, reference and oracle compare on a file.
 struct VerifyReport {
   std::string isa;
-  std::string what;                       ///< "smits reflectance, 60 bands" or "projection, 60 bands"
+  std::string what;  ///< "smits reflectance, 60 bands" or "projection, 60 bands"
   std::uint64_t pixels = 0;
   std::uint64_t samples = 0;
-  std::uint64_t different_samples = 0;    ///< kernel's bits against the reference's
-  double max_kernel_difference = 0;       ///< absolute
-  double max_oracle_difference = 0;       ///< reference against double, over the pixel's largest possible sample
-  double oracle_bound = 0;                ///< what that must not exceed
+  std::uint64_t different_samples = 0;  ///< kernel's bits against the reference's
+  double max_kernel_difference = 0;     ///< absolute
+  double max_oracle_difference = 0;  ///< reference against double, over the pixel's largest possible sample
+  double oracle_bound = 0;           ///< what that must not exceed
   bool ok() const { return different_samples == 0 && max_oracle_difference <= oracle_bound; }
 };
 
-/// Runs the kernels in force, the scalar reference and the double oracle on every pixel of an RGB or spectral file.
+/// Runs the kernels in force, the scalar reference and the double oracle on every pixel of an RGB or spectral
+/// file.
 Result<VerifyReport> verify_image(const std::string& path, const UpsampleImageOptions& options = {});
 
 }  // namespace spectile

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <span>
+#include <spectile/bands.hpp>
+#include <spectile/result.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <spectile/bands.hpp>
-#include <spectile/result.hpp>
-
 namespace spectile {
 
-/// A piecewise-linear spectrum, constant beyond both ends. Immutable; holds its own sorted copy of the samples.
+/// A piecewise-linear spectrum, constant beyond both ends. Immutable; holds its own sorted copy of the
+/// samples.
 class MeasuredSpectrum {
  public:
   /// From samples in any order, which are not changed.
@@ -42,26 +42,25 @@ class MeasuredSpectrum {
   std::vector<double> values_;
 };
 
-/// Exact averages over each band of the piecewise-linear spectrum through samples in any order, constant beyond both
-/// ends. Shapes, units and errors as for MeasuredSpectrum::from_samples.
+/// Exact averages over each band of the piecewise-linear spectrum through samples in any order, constant
+/// beyond both ends. Shapes, units and errors as for MeasuredSpectrum::from_samples.
 Result<std::vector<float>> average_over(const Bands& bands, std::span<const double> wavelengths_nm,
                                         std::span<const double> values);
 
 /// Exact integral from `first_nm` to `last_nm` of the product of two spectra.
-double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, double first_nm, double last_nm);
+double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, double first_nm,
+                        double last_nm);
 
-/// A CIE illuminant by name (A, C, D50, D55, D60, D65, D75, E, FL1 to FL12, HP1, LED-B1, LED-B3, LED-RGB1), whatever
-/// its case, on its published scale.
-/// Errors: kUnknownName, listing the names.
-/// Source: CIE 015:2018.
+/// A CIE illuminant by name (A, C, D50, D55, D60, D65, D75, E, FL1 to FL12, HP1, LED-B1, LED-B3, LED-RGB1),
+/// whatever its case, on its published scale. Errors: kUnknownName, listing the names. Source: CIE 015:2018.
 Result<MeasuredSpectrum> illuminant(std::string_view name);
 
 /// Names that illuminant() knows.
 std::vector<std::string> illuminant_names();
 
-/// Reads "wavelength_nm,value" lines; blank lines, lines that start with #, one heading of words before the first sample
-/// and a byte order mark are passed over; comma, semicolon, tab or spaces separate.
-/// Errors: kBadFile with the line's number, kNoPermission.
+/// Reads "wavelength_nm,value" lines; blank lines, lines that start with #, one heading of words before the
+/// first sample and a byte order mark are passed over; comma, semicolon, tab or spaces separate. Errors:
+/// kBadFile with the line's number, kNoPermission.
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path);
 
 }  // namespace spectile

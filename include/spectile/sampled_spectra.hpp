@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-
 #include <spectile/bands.hpp>
 #include <spectile/result.hpp>
 
@@ -73,7 +72,8 @@ class SampledSpectra {
   static Result<SampledSpectra> constant(const Bands& bands, std::size_t lanes, float value);
   /// A batch with every lane the same spectrum, one value a band.
   /// Errors: kBandsMismatch when the count of values differs from that of bands; kOutOfMemory.
-  static Result<SampledSpectra> broadcast(const Bands& bands, std::size_t lanes, std::span<const float> values);
+  static Result<SampledSpectra> broadcast(const Bands& bands, std::size_t lanes,
+                                          std::span<const float> values);
 
   std::size_t lanes() const noexcept { return lanes_; }
   std::size_t blocks() const noexcept { return blocks_for(lanes_); }
@@ -94,7 +94,8 @@ class SampledSpectra {
   Bands bands_;
 };
 
-/// Read-only view of one float a lane, padded to whole blocks. Shapes: data [lanes rounded up to 64], 64-byte aligned.
+/// Read-only view of one float a lane, padded to whole blocks. Shapes: data [lanes rounded up to 64], 64-byte
+/// aligned.
 struct LanesView {
   const float* data = nullptr;
   std::size_t lanes = 0;

@@ -3,12 +3,11 @@
 
 #include <array>
 #include <span>
-#include <string_view>
-#include <vector>
-
 #include <spectile/bands.hpp>
 #include <spectile/result.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <string_view>
+#include <vector>
 
 namespace spectile {
 
@@ -57,7 +56,8 @@ class Upsampler {
   const Bands& bands() const noexcept { return bands_; }
   /// Least sample that comes out: 0, or minus infinity when negative ones are kept.
   float lowest() const noexcept { return lowest_; }
-  /// Shapes: [bands][7], in double before rounding to the kernels' float; white, cyan, magenta, yellow, red, green, blue.
+  /// Shapes: [bands][7], in double before rounding to the kernels' float; white, cyan, magenta, yellow, red,
+  /// green, blue.
   std::span<const std::array<double, 7>> basis() const noexcept { return basis_; }
   /// Shapes: [bands][8], the eighth 0, 64-byte aligned.
   const float* table() const noexcept { return table_.data(); }
@@ -74,11 +74,11 @@ class Upsampler {
 
 /// Linear sRGB to spectra.
 /// Shapes: rgb three times [lanes]; spectra [block][band][64].
-/// Numbers: homogeneous (twice the RGB is twice the spectrum), no upper limit. The error is below 6 * 2^-24 of the sum
-/// of the weights' magnitudes (|least| + greatest - least: the greatest component where none is negative) times the
-/// largest basis value. NaN in any component gives NaN in every band; infinities give infinities, NaN or, where the
-/// result is minus infinity and negative samples are not kept, 0.
-/// Errors: kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
+/// Numbers: homogeneous (twice the RGB is twice the spectrum), no upper limit. The error is below 6 * 2^-24
+/// of the sum of the weights' magnitudes (|least| + greatest - least: the greatest component where none is
+/// negative) times the largest basis value. NaN in any component gives NaN in every band; infinities give
+/// infinities, NaN or, where the result is minus infinity and negative samples are not kept, 0. Errors:
+/// kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
                            Stores stores = Stores::kAuto, const Execution& how = {});
 

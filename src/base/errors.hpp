@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include <spectile/result.hpp>
+#include <utility>
 
 namespace spectile {
 
@@ -18,9 +17,9 @@ Error make_error(ErrorCode code, fmt::format_string<Args...> format, Args&&... a
 }  // namespace spectile
 
 /// Returns the error of a Result from the enclosing function.
-#define SPECTILE_TRY(expression)                                  \
-  do {                                                            \
-    if (auto result_of_try = (expression); !result_of_try) {      \
-      return result_of_try.error();                               \
-    }                                                             \
+#define SPECTILE_TRY(expression)                             \
+  do {                                                       \
+    if (auto result_of_try = (expression); !result_of_try) { \
+      return result_of_try.error();                          \
+    }                                                        \
   } while (false)

@@ -1,14 +1,13 @@
-// Pooled, 64-byte aligned memory: freed buffers wait for the next owner, because fresh pages cost more than the
-// arithmetic done on them.
+// Pooled, 64-byte aligned memory: freed buffers wait for the next owner, because fresh pages cost more than
+// the arithmetic done on them.
 #include <sys/mman.h>
 
 #include <cstdlib>
 #include <map>
 #include <mutex>
 #include <new>
-#include <vector>
-
 #include <spectile/sampled_spectra.hpp>
+#include <vector>
 
 #include "src/base/errors.hpp"
 
@@ -76,7 +75,9 @@ std::size_t rounded(std::size_t bytes) {
 }  // namespace
 
 namespace detail {
-void PooledFree::operator()(float* p) const noexcept { pool().give(p, bytes); }
+void PooledFree::operator()(float* p) const noexcept {
+  pool().give(p, bytes);
+}
 }  // namespace detail
 
 Result<FloatBuffer> FloatBuffer::create(std::size_t count) {
@@ -98,6 +99,8 @@ Result<FloatBuffer> FloatBuffer::create(std::size_t count) {
   return buffer;
 }
 
-void release_pooled_memory() noexcept { pool().release(); }
+void release_pooled_memory() noexcept {
+  pool().release();
+}
 
 }  // namespace spectile

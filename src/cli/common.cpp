@@ -17,7 +17,9 @@ namespace {
 
 volatile std::sig_atomic_t signal_seen = 0;
 
-extern "C" void note_signal(int) { signal_seen = 1; }
+extern "C" void note_signal(int) {
+  signal_seen = 1;
+}
 
 int usage(const std::string& message) {
   fmt::print(stderr, "spectile: {}\n", message);
@@ -45,8 +47,9 @@ class ProgressBar {
     const double done = static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
     constexpr int kWidth = 30;
     const int full = static_cast<int>(done * kWidth);
-    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {:.0f} s left", label_, "", full, "", kWidth - full,
-               100 * done, speed_text(progress.pixels_done, seconds), seconds / done * (1 - done));
+    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {:.0f} s left", label_, "", full, "",
+               kWidth - full, 100 * done, speed_text(progress.pixels_done, seconds),
+               seconds / done * (1 - done));
     std::fflush(stderr);
     return true;
   }
@@ -77,11 +80,14 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"notes", r.notes}};
 }
 
-std::string plural(std::uint64_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+std::string plural(std::uint64_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
 
 void print_report(const Job& job, const ImageReport& r) {
   fmt::print("{} -> {}: {} x {}, {}, {}, {}, {:.2f} s\n", job.input, job.output, r.width, r.height,
-             plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds), r.seconds);
+             plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds),
+             r.seconds);
   if (!r.color_space.empty()) fmt::print("  RGB taken for {}\n", r.color_space);
   if (r.nonfinite_pixels > 0) fmt::print("  {} made black\n", plural(r.nonfinite_pixels, "non-finite pixel"));
   if (r.negative_pixels > 0) {
@@ -136,16 +142,20 @@ int complain(const Error& error) {
 }
 
 void add_write_options(CLI::App& command, WriteOptions& options, const char* pixel_default) {
-  command.add_option("--pixel", options.pixel, fmt::format("Sample type: half or float; {} by default", pixel_default))
+  command
+      .add_option("--pixel", options.pixel,
+                  fmt::format("Sample type: half or float; {} by default", pixel_default))
       ->check(CLI::IsMember({"half", "float"}));
-  command.add_option("--compression", options.compression,
-                     fmt::format("none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab; zip and zips take a level "
-                                 "of 1 (fast) to 9 (small), as in zip:4, dwaa and dwab one of loss, 45 by default; {} "
-                                 "by default. b44 and b44a lose precision, pxr24 does with float, dwaa and dwab do in "
-                                 "R, G, B, Y and A",
-                                 Compression{}.description()));
-  command.add_option("--nonfinite", options.nonfinite,
-                     "Pixels with NaN or infinity: stop (no output is written) or zero (they become black)")
+  command.add_option(
+      "--compression", options.compression,
+      fmt::format("none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab; zip and zips take a level "
+                  "of 1 (fast) to 9 (small), as in zip:4, dwaa and dwab one of loss, 45 by default; {} "
+                  "by default. b44 and b44a lose precision, pxr24 does with float, dwaa and dwab do in "
+                  "R, G, B, Y and A",
+                  Compression{}.description()));
+  command
+      .add_option("--nonfinite", options.nonfinite,
+                  "Pixels with NaN or infinity: stop (no output is written) or zero (they become black)")
       ->check(CLI::IsMember({"stop", "zero"}))
       ->capture_default_str();
   command.add_option("--tile", options.tile, "Most pixels a kernel call works on; changes speed only")
@@ -209,14 +219,16 @@ int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& o
     if (!report) {
       exit = std::max(exit, complain(report.error()));
       if (common.json) {
-        const nlohmann::json failure = {{"input", job.input}, {"output", job.output}, {"error", report.error().message}};
+        const nlohmann::json failure = {
+            {"input", job.input}, {"output", job.output}, {"error", report.error().message}};
         fmt::print("{}\n", failure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
       }
       if (interrupted()) return kInterrupted;
       continue;
     }
     if (common.json) {
-      fmt::print("{}\n", to_json(job, *report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      fmt::print("{}\n",
+                 to_json(job, *report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     } else if (!common.quiet) {
       print_report(job, *report);
     }
@@ -236,7 +248,9 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.3g} {}", value, kUnits[unit]);
 }
 
-bool interrupted() { return signal_seen != 0; }
+bool interrupted() {
+  return signal_seen != 0;
+}
 
 void catch_signals() {
   struct sigaction action {};

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-
 #include <nlohmann/json.hpp>
+#include <spectile/spectile.hpp>
 #include <string>
 #include <vector>
-
-#include <spectile/spectile.hpp>
 
 namespace spectile::cli {
 
@@ -55,8 +53,8 @@ struct Job {
   std::string output;
 };
 
-/// Pairs inputs with outputs: one file, or each into a directory under its own name. The directory is made when it
-/// does not exist and there are several inputs or the name ends in a slash. Says what is wrong.
+/// Pairs inputs with outputs: one file, or each into a directory under its own name. The directory is made
+/// when it does not exist and there are several inputs or the name ends in a slash. Says what is wrong.
 int plan_jobs(const std::vector<std::string>& inputs, const std::string& output, std::vector<Job>& jobs);
 
 /// Runs convert(job, options) for each job; one that fails does not stop the others. Prints reports.

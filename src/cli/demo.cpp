@@ -87,17 +87,21 @@ int run(const Arguments& a) {
 
   const auto chart = make_chart();
   if (!chart) return complain(chart.error());
+  const ProgressFunction go_on = [](const Progress&) { return !interrupted(); };
   ImageOptions plain;
   plain.threads = a.common.threads;
+  plain.progress = go_on;
   if (auto written = write_rgb_image(chart_path, chart->view(), kWidth, kHeight, plain); !written) {
     return complain(written.error());
   }
   UpsampleImageOptions up;
   up.threads = a.common.threads;
+  up.progress = go_on;
   const auto upsampled = upsample_image(chart_path, spectral_path, up);
   if (!upsampled) return complain(upsampled.error());
   ProjectImageOptions down;
   down.threads = a.common.threads;
+  down.progress = go_on;
   down.pixel = PixelType::kFloat;
   const auto projected = project_image(spectral_path, back_path, down);
   if (!projected) return complain(projected.error());
@@ -124,14 +128,17 @@ int run(const Arguments& a) {
     fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (!a.common.quiet) {
     fmt::print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
-    fmt::print("{}: upsampled to {} bands, {}, {}; kernels ({}) equal the reference in {} of {} samples, which is "
-               "within {:.2g} of double\n",
-               spectral_path, upsampled->bands, speed_text(upsampled->pixels(), upsampled->seconds),
-               size_text(upsampled->bytes_written), verified->isa, verified->samples - verified->different_samples,
-               verified->samples, verified->max_oracle_difference);
-    fmt::print("{}: projected back under D65, {}\n", back_path, speed_text(projected->pixels(), projected->seconds));
-    fmt::print("round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: what the method loses\n", mean,
-               most);
+    fmt::print(
+        "{}: upsampled to {} bands, {}, {}; kernels ({}) equal the reference in {} of {} samples, which is "
+        "within {:.2g} of double\n",
+        spectral_path, upsampled->bands, speed_text(upsampled->pixels(), upsampled->seconds),
+        size_text(upsampled->bytes_written), verified->isa, verified->samples - verified->different_samples,
+        verified->samples, verified->max_oracle_difference);
+    fmt::print("{}: projected back under D65, {}\n", back_path,
+               speed_text(projected->pixels(), projected->seconds));
+    fmt::print(
+        "round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: what the method loses\n", mean,
+        most);
     const std::array<int, 2> at = {kWidth / 6 + 40, kHeight / 8};
     const auto info = inspect_image(spectral_path, at, a.common.threads);
     if (!info) return complain(info.error());

@@ -53,13 +53,13 @@ void print_channel(const ChannelInfo& c) {
 }
 
 void print_info(const std::string& path, const ImageInfo& info) {
-  fmt::print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "", info.compression,
-             info.parts > 1 ? fmt::format(", first of {} parts", info.parts) : "");
+  fmt::print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "",
+             info.compression, info.parts > 1 ? fmt::format(", first of {} parts", info.parts) : "");
   const auto& d = info.data_window;
   const auto& w = info.display_window;
   if (d != w) {
-    fmt::print("data window ({},{}) to ({},{}), display window ({},{}) to ({},{})\n", d[0], d[1], d[2], d[3], w[0],
-               w[1], w[2], w[3]);
+    fmt::print("data window ({},{}) to ({},{}), display window ({},{}) to ({},{})\n", d[0], d[1], d[2], d[3],
+               w[0], w[1], w[2], w[3]);
   }
   std::size_t plain = info.channels.size();
   if (info.bands) {
@@ -112,7 +112,8 @@ int run(const Arguments& a) {
   const auto info = inspect_image(a.input, pixel, a.common.threads);
   if (!info) return complain(info.error());
   if (a.common.json) {
-    fmt::print("{}\n", to_json(a.input, *info).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n",
+               to_json(a.input, *info).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (!a.common.quiet) {
     print_info(a.input, *info);
     if (pixel) print_pixel(*info, a.pixel);

@@ -33,20 +33,23 @@ std::vector<std::string> plot(std::span<const float> values, const Bands& bands)
     const double lambda = first + (column + 0.5) / kColumns * (last - first);
     std::size_t b = 0;
     while (b + 1 < bands.count() && bands[b].upper_nm <= lambda) ++b;
-    const double v = std::isfinite(values[b]) ? (static_cast<double>(values[b]) - bottom) / (top - bottom) : 0.0;
+    const double v =
+        std::isfinite(values[b]) ? (static_cast<double>(values[b]) - bottom) / (top - bottom) : 0.0;
     heights.push_back(static_cast<int>(std::lround(v * 8 * kRows)));
   }
   std::vector<std::string> lines;
   for (int row = kRows - 1; row >= 0; --row) {
     const double level = bottom + (row + 1.0) / kRows * (top - bottom);
-    std::string line = row == kRows - 1 || row == kRows / 2 - 1 ? fmt::format("{:>9.4g} │", level) : "          │";
+    std::string line =
+        row == kRows - 1 || row == kRows / 2 - 1 ? fmt::format("{:>9.4g} │", level) : "          │";
     for (const int height : heights) line += kEighths[std::clamp(height - 8 * row, 0, 8)];
     lines.push_back(line);
   }
   std::string axis = fmt::format("{:>9.4g} └", bottom);
   for (int column = 0; column < kColumns; ++column) axis += "─";
   lines.push_back(axis);
-  lines.push_back(fmt::format("           {:<20.6g}{:^20.6g}{:>20}", first, 0.5 * (first + last), fmt::format("{:.6g} nm", last)));
+  lines.push_back(fmt::format("           {:<20.6g}{:^20.6g}{:>20}", first, 0.5 * (first + last),
+                              fmt::format("{:.6g} nm", last)));
   return lines;
 }
 

@@ -29,7 +29,8 @@ int run(const Arguments& a) {
   options.observer = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
   if (!a.illuminant.empty()) {
     std::error_code ignored;
-    const bool file = a.illuminant.find('/') != std::string::npos || a.illuminant.find('.') != std::string::npos ||
+    const bool file = a.illuminant.find('/') != std::string::npos ||
+                      a.illuminant.find('.') != std::string::npos ||
                       std::filesystem::is_regular_file(a.illuminant, ignored);
     auto known = illuminant(a.illuminant);
     auto light = !known && file ? load_spectrum_csv(a.illuminant) : std::move(known);
@@ -59,13 +60,15 @@ void add_project(CLI::App& app, int& exit) {
       ->capture_default_str();
   std::string names;
   for (const std::string& name : illuminant_names()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option("--illuminant", a->illuminant,
-                      "Light on reflectances: a file of wavelength,value lines, or one of " + names +
-                          "; D65 by default");
+  command->add_option(
+      "--illuminant", a->illuminant,
+      "Light on reflectances: a file of wavelength,value lines, or one of " + names + "; D65 by default");
   command->add_option("--observer", a->observer, "1931 (2 degree) or 1964 (10 degree)")
       ->check(CLI::IsMember({"1931", "1964"}))
       ->capture_default_str();
-  command->add_option("--quantity", a->quantity, "Which to take where a file holds both: reflectance or illuminant")
+  command
+      ->add_option("--quantity", a->quantity,
+                   "Which to take where a file holds both: reflectance or illuminant")
       ->check(CLI::IsMember({"reflectance", "illuminant"}));
   add_write_options(*command, a->write, "float");
   add_common(*command, a->common);

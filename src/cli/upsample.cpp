@@ -46,23 +46,30 @@ int run(const Arguments& a) {
 void add_upsample(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("upsample", "Turn RGB images into spectral ones");
-  command->add_option("IN", a->inputs, "RGB OpenEXR images: half, float or uint, scanline or tiled")->required();
+  command->add_option("IN", a->inputs, "RGB OpenEXR images: half, float or uint, scanline or tiled")
+      ->required();
   command->add_option("-o,--output", a->output, "File, or directory for several inputs")->required();
-  command->add_option("--method", a->method,
-                      "smits: 32-sample basis spectra; smits1999: the ten samples of the paper")
+  command
+      ->add_option("--method", a->method,
+                   "smits: 32-sample basis spectra; smits1999: the ten samples of the paper")
       ->check(CLI::IsMember({"smits", "smits1999"}))
       ->capture_default_str();
-  command->add_option("--quantity", a->quantity,
-                      "reflectance (channels T.*nm) or illuminant: emitted light (channels S0.*nm)")
+  command
+      ->add_option("--quantity", a->quantity,
+                   "reflectance (channels T.*nm) or illuminant: emitted light (channels S0.*nm)")
       ->check(CLI::IsMember({"reflectance", "illuminant"}))
       ->capture_default_str();
-  command->add_option("--bands", a->bands,
-                      "FIRST:LAST:STEP in nm, or a list of centres. The default cuts off what the eye sees beyond it: "
-                      "a mean error of 0.29 CIEDE2000 under D65, against 0.03 for 380:780:5")
+  command
+      ->add_option(
+          "--bands", a->bands,
+          "FIRST:LAST:STEP in nm, or a list of centres. The default cuts off what the eye sees beyond it: "
+          "a mean error of 0.29 CIEDE2000 under D65, against 0.03 for 380:780:5")
       ->capture_default_str();
-  command->add_option("--negative", a->negative,
-                      "Components below 0, as colours outside sRGB have: clip to 0, keep (samples may fall below 0 "
-                      "too) or stop")
+  command
+      ->add_option(
+          "--negative", a->negative,
+          "Components below 0, as colours outside sRGB have: clip to 0, keep (samples may fall below 0 "
+          "too) or stop")
       ->check(CLI::IsMember({"clip", "keep", "stop"}))
       ->capture_default_str();
   command->add_option("--layer", a->layer, "Layer, view or part to take R, G, B from");

@@ -53,7 +53,8 @@ int run(const Arguments& a) {
                                   {"ok", report->ok()}};
       fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     } else if (!a.common.quiet) {
-      fmt::print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels, report->ok() ? "ok" : "DIFFERENT");
+      fmt::print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,
+                 report->ok() ? "ok" : "DIFFERENT");
       fmt::print("  {} kernels against reference: {} of {} samples differ, by {:.3g} at most\n", report->isa,
                  report->different_samples, report->samples, report->max_kernel_difference);
       fmt::print("  reference against double: relative difference {:.3g} at most, bound {:.3g}\n",
@@ -76,7 +77,8 @@ void add_verify(CLI::App& app, int& exit) {
   command->add_option("--quantity", a->quantity, "reflectance or illuminant")
       ->check(CLI::IsMember({"reflectance", "illuminant"}))
       ->capture_default_str();
-  command->add_option("--bands", a->bands, "FIRST:LAST:STEP in nm, or a list of centres")->capture_default_str();
+  command->add_option("--bands", a->bands, "FIRST:LAST:STEP in nm, or a list of centres")
+      ->capture_default_str();
   command->add_option("--layer", a->layer, "Layer, view or part to take R, G, B from");
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });

@@ -362,34 +362,24 @@ constexpr double kLEDRGB1Values[] = {
 // clang-format on
 
 constexpr NamedTable kIlluminants[] = {
-    {"A", 300.0, 5.0, kAValues},
-    {"C", 300.0, 5.0, kCValues},
-    {"D50", 300.0, 5.0, kD50Values},
-    {"D55", 300.0, 5.0, kD55Values},
-    {"D60", 300.0, 5.0, kD60Values},
-    {"D65", 300.0, 5.0, kD65Values},
-    {"D75", 300.0, 5.0, kD75Values},
-    {"E", 360.0, 5.0, kEValues},
-    {"FL1", 380.0, 5.0, kFL1Values},
-    {"FL2", 380.0, 5.0, kFL2Values},
-    {"FL3", 380.0, 5.0, kFL3Values},
-    {"FL4", 380.0, 5.0, kFL4Values},
-    {"FL5", 380.0, 5.0, kFL5Values},
-    {"FL6", 380.0, 5.0, kFL6Values},
-    {"FL7", 380.0, 5.0, kFL7Values},
-    {"FL8", 380.0, 5.0, kFL8Values},
-    {"FL9", 380.0, 5.0, kFL9Values},
-    {"FL10", 380.0, 5.0, kFL10Values},
-    {"FL11", 380.0, 5.0, kFL11Values},
-    {"FL12", 380.0, 5.0, kFL12Values},
-    {"HP1", 380.0, 5.0, kHP1Values},
-    {"LED-B1", 380.0, 5.0, kLEDB1Values},
-    {"LED-B3", 380.0, 5.0, kLEDB3Values},
-    {"LED-RGB1", 380.0, 5.0, kLEDRGB1Values},
+    {"A", 300.0, 5.0, kAValues},          {"C", 300.0, 5.0, kCValues},
+    {"D50", 300.0, 5.0, kD50Values},      {"D55", 300.0, 5.0, kD55Values},
+    {"D60", 300.0, 5.0, kD60Values},      {"D65", 300.0, 5.0, kD65Values},
+    {"D75", 300.0, 5.0, kD75Values},      {"E", 360.0, 5.0, kEValues},
+    {"FL1", 380.0, 5.0, kFL1Values},      {"FL2", 380.0, 5.0, kFL2Values},
+    {"FL3", 380.0, 5.0, kFL3Values},      {"FL4", 380.0, 5.0, kFL4Values},
+    {"FL5", 380.0, 5.0, kFL5Values},      {"FL6", 380.0, 5.0, kFL6Values},
+    {"FL7", 380.0, 5.0, kFL7Values},      {"FL8", 380.0, 5.0, kFL8Values},
+    {"FL9", 380.0, 5.0, kFL9Values},      {"FL10", 380.0, 5.0, kFL10Values},
+    {"FL11", 380.0, 5.0, kFL11Values},    {"FL12", 380.0, 5.0, kFL12Values},
+    {"HP1", 380.0, 5.0, kHP1Values},      {"LED-B1", 380.0, 5.0, kLEDB1Values},
+    {"LED-B3", 380.0, 5.0, kLEDB3Values}, {"LED-RGB1", 380.0, 5.0, kLEDRGB1Values},
 };
 
 }  // namespace
 
-std::span<const NamedTable> illuminants() { return kIlluminants; }
+std::span<const NamedTable> illuminants() {
+  return kIlluminants;
+}
 
 }  // namespace spectile::data

@@ -1,7 +1,7 @@
-// Smits's basis spectra: the 32-sample refinement for reflectances and lights, and the ten samples as printed.
-// Sources: smits: computed by Karl vom Berge for Pharr, Jakob and Humphreys, Physically Based Rendering, 3rd edition,
-// used with the factors 0.94 and 0.86445. smits1999: Smits, An RGB-to-Spectrum Conversion for Reflectances,
-// J. Graphics Tools 4(4), 1999.
+// Smits's basis spectra: the 32-sample refinement for reflectances and lights, and the ten samples as
+// printed. Sources: smits: computed by Karl vom Berge for Pharr, Jakob and Humphreys, Physically Based
+// Rendering, 3rd edition, used with the factors 0.94 and 0.86445. smits1999: Smits, An RGB-to-Spectrum
+// Conversion for Reflectances, J. Graphics Tools 4(4), 1999.
 #include "src/data/tables.hpp"
 
 namespace spectile::data {
@@ -196,13 +196,17 @@ constexpr double kPrintedBlue[] = {
 
 }  // namespace
 
-const SmitsData kSmitsReflectance = {0.94,
+const SmitsData kSmitsReflectance = {
+    0.94,
     kReflectanceWavelengths,
-    {kReflectanceWhite, kReflectanceCyan, kReflectanceMagenta, kReflectanceYellow, kReflectanceRed, kReflectanceGreen, kReflectanceBlue}};
+    {kReflectanceWhite, kReflectanceCyan, kReflectanceMagenta, kReflectanceYellow, kReflectanceRed,
+     kReflectanceGreen, kReflectanceBlue}};
 const SmitsData kSmitsIlluminant = {0.86445,
-    kIlluminantWavelengths,
-    {kIlluminantWhite, kIlluminantCyan, kIlluminantMagenta, kIlluminantYellow, kIlluminantRed, kIlluminantGreen, kIlluminantBlue}};
-const SmitsData kSmits1999 = {1.0,
+                                    kIlluminantWavelengths,
+                                    {kIlluminantWhite, kIlluminantCyan, kIlluminantMagenta, kIlluminantYellow,
+                                     kIlluminantRed, kIlluminantGreen, kIlluminantBlue}};
+const SmitsData kSmits1999 = {
+    1.0,
     kPrintedWavelengths,
     {kPrintedWhite, kPrintedCyan, kPrintedMagenta, kPrintedYellow, kPrintedRed, kPrintedGreen, kPrintedBlue}};
 

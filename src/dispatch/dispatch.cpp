@@ -3,9 +3,8 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <string>
-
 #include <spectile/isa.hpp>
+#include <string>
 
 #include "src/base/errors.hpp"
 #include "src/reference/table.hpp"
@@ -40,8 +39,12 @@ bool has_f16c() {
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & (1U << 29)) != 0;
 }
 // The compiler's builtins also ask whether the operating system saves the registers (XCR0).
-bool runs_sse42() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-bool runs_avx2() { return runs_sse42() && __builtin_cpu_supports("avx2") && has_f16c(); }
+bool runs_sse42() {
+  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+}
+bool runs_avx2() {
+  return runs_sse42() && __builtin_cpu_supports("avx2") && has_f16c();
+}
 bool runs_avx512() {
   return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
@@ -55,25 +58,21 @@ struct Entry {
   bool (*runs)();
 };
 
-bool always() { return true; }
+bool always() {
+  return true;
+}
 
 constexpr Entry kEntries[] = {
     {"scalar", &reference::table, always},
 #if defined(__x86_64__)
-    {"sse4.2", &kernels::sse42, runs_sse42},
-    {"avx2", &kernels::avx2, runs_avx2},
-    {"avx512", &kernels::avx512, runs_avx512},
-    {"neon", nullptr, always},
+    {"sse4.2", &kernels::sse42, runs_sse42},   {"avx2", &kernels::avx2, runs_avx2},
+    {"avx512", &kernels::avx512, runs_avx512}, {"neon", nullptr, always},
 #elif defined(__aarch64__)
-    {"sse4.2", nullptr, always},
-    {"avx2", nullptr, always},
-    {"avx512", nullptr, always},
-    {"neon", &kernels::neon, always},
+    {"sse4.2", nullptr, always},           {"avx2", nullptr, always},
+    {"avx512", nullptr, always},           {"neon", &kernels::neon, always},
 #else
-    {"sse4.2", nullptr, always},
-    {"avx2", nullptr, always},
-    {"avx512", nullptr, always},
-    {"neon", nullptr, always},
+    {"sse4.2", nullptr, always},           {"avx2", nullptr, always},
+    {"avx512", nullptr, always},           {"neon", nullptr, always},
 #endif
 };
 
@@ -81,7 +80,8 @@ std::atomic<const KernelTable*> forced{nullptr};
 
 std::string names_here() {
   std::string names;
-  for (const KernelTable* table : available()) names += names.empty() ? table->name : std::string(", ") + table->name;
+  for (const KernelTable* table : available())
+    names += names.empty() ? table->name : std::string(", ") + table->name;
   return names;
 }
 
@@ -99,7 +99,8 @@ Result<const KernelTable*> find(std::string_view name) {
   for (const Entry& entry : kEntries) {
     if (entry.name != name) continue;
     if (entry.table != nullptr && entry.runs()) return entry.table;
-    return make_error(ErrorCode::kUnavailable, "instruction set \"{}\" does not run on this machine, which has {}", name,
+    return make_error(ErrorCode::kUnavailable,
+                      "instruction set \"{}\" does not run on this machine, which has {}", name,
                       names_here());
   }
   return make_error(ErrorCode::kUnknownName, "instruction set \"{}\" is unknown; this machine has {}", name,
@@ -143,6 +144,8 @@ Result<std::string> active_isa() {
   return std::string((*table)->name);
 }
 
-Result<void> force_isa(std::string_view name) { return dispatch::force(name); }
+Result<void> force_isa(std::string_view name) {
+  return dispatch::force(name);
+}
 
 }  // namespace spectile

@@ -1,17 +1,16 @@
 // Detection of the processor's instruction sets and choice of the kernel table.
 #pragma once
 
+#include <spectile/result.hpp>
 #include <string_view>
 #include <vector>
-
-#include <spectile/result.hpp>
 
 #include "kernels/abi.hpp"
 
 namespace spectile::dispatch {
 
-/// The table by name. Errors: kUnknownName for a name that does not exist, kUnavailable for one this machine or build
-/// cannot run.
+/// The table by name. Errors: kUnknownName for a name that does not exist, kUnavailable for one this machine
+/// or build cannot run.
 Result<const kernels::KernelTable*> find(std::string_view name);
 
 /// Every table that runs here, the reference first, the fastest last.

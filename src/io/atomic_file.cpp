@@ -46,8 +46,9 @@ std::string random_suffix() {
 
 /// An unused name beside the target that nobody takes for a finished image.
 std::string temporary_name(const std::string& target) {
-  const std::filesystem::path path(target);
-  return (path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), random_suffix())).string();
+  // Not made from the target's own name, which may be as long as the system allows already.
+  return (std::filesystem::path(target).parent_path() / fmt::format(".spectile-{}.part", random_suffix()))
+      .string();
 }
 
 }  // namespace
@@ -61,8 +62,10 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return system_error(path, "write", errno);
   if (exists) {
-    if (S_ISDIR(status.st_mode)) return make_error(ErrorCode::kBadFile, "{}: cannot write: is a directory", path);
-    if (!S_ISREG(status.st_mode)) return make_error(ErrorCode::kBadFile, "{}: cannot write: not a plain file", path);
+    if (S_ISDIR(status.st_mode))
+      return make_error(ErrorCode::kBadFile, "{}: cannot write: is a directory", path);
+    if (!S_ISREG(status.st_mode))
+      return make_error(ErrorCode::kBadFile, "{}: cannot write: not a plain file", path);
     if (::access(path.c_str(), W_OK) != 0) return system_error(path, "write", errno);
     mode = status.st_mode & 0777;
     if (char* resolved = ::realpath(path.c_str(), nullptr)) {
@@ -87,11 +90,14 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
       return system_error(path, "write", error_number);
     }
   }
-  if (exists) static_cast<void>(::fchmod(file.fd_, mode));  // the umask does not apply to a file that was there
+  if (exists)
+    static_cast<void>(::fchmod(file.fd_, mode));  // the umask does not apply to a file that was there
   return file;
 }
 
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept { *this = std::move(other); }
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept {
+  *this = std::move(other);
+}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   if (this != &other) {
@@ -104,7 +110,9 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   return *this;
 }
 
-AtomicFile::~AtomicFile() { discard(); }
+AtomicFile::~AtomicFile() {
+  discard();
+}
 
 void AtomicFile::discard() noexcept {
   if (fd_ >= 0) ::close(fd_);

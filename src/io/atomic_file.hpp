@@ -3,17 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
-
 #include <spectile/result.hpp>
+#include <string>
 
 namespace spectile::io {
 
-/// Written without a name where the system can (so that a killed run leaves nothing), else under a temporary name
-/// beside the target; commit() puts it in the target's place.
+/// Written without a name where the system can (so that a killed run leaves nothing), else under a temporary
+/// name beside the target; commit() puts it in the target's place.
 class AtomicFile {
  public:
-  /// Errors: kNoPermission, kNoSpace, kBadFile (a target that is a directory or a device, a folder that is missing).
+  /// Errors: kNoPermission, kNoSpace, kBadFile (a target that is a directory or a device, a folder that is
+  /// missing).
   static Result<AtomicFile> create(const std::string& path);
 
   AtomicFile(AtomicFile&& other) noexcept;

@@ -29,11 +29,23 @@ namespace {
 
 /// Attributes that say how pixels are stored, or belong to one part among several; the writer makes its own.
 bool describes_storage(const std::string& name) {
-  static const std::set<std::string> kNames = {
-      "channels",          "chunkCount",        "compression",      "dataWindow", "displayWindow",
-      "dwaCompressionLevel", "lineOrder",       "maxSamplesPerPixel", "multiView", "name",
-      "pixelAspectRatio",  "screenWindowCenter", "screenWindowWidth", "tiles",    "type",
-      "version",           "view"};
+  static const std::set<std::string> kNames = {"channels",
+                                               "chunkCount",
+                                               "compression",
+                                               "dataWindow",
+                                               "displayWindow",
+                                               "dwaCompressionLevel",
+                                               "lineOrder",
+                                               "maxSamplesPerPixel",
+                                               "multiView",
+                                               "name",
+                                               "pixelAspectRatio",
+                                               "screenWindowCenter",
+                                               "screenWindowWidth",
+                                               "tiles",
+                                               "type",
+                                               "version",
+                                               "view"};
   return kNames.contains(name);
 }
 
@@ -96,8 +108,8 @@ bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& resul
     result = exr_attr_set_keycode(at.to, at.part, at.name, &value);
   } else if (const auto* c = dynamic_cast<const Imf::ChromaticitiesAttribute*>(&from)) {
     const Imf::Chromaticities& v = c->value();
-    const exr_attr_chromaticities_t value = {v.red.x,   v.red.y,  v.green.x, v.green.y,
-                                             v.blue.x,  v.blue.y, v.white.x, v.white.y};
+    const exr_attr_chromaticities_t value = {v.red.x,  v.red.y,  v.green.x, v.green.y,
+                                             v.blue.x, v.blue.y, v.white.x, v.white.y};
     result = exr_attr_set_chromaticities(at.to, at.part, at.name, &value);
   } else {
     return false;
@@ -107,12 +119,15 @@ bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& resul
 
 bool set_list(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
   if (const auto* f = dynamic_cast<const Imf::FloatVectorAttribute*>(&from)) {
+    const float none = 0;  // an empty list needs an address too
     result = exr_attr_set_float_vector(at.to, at.part, at.name, static_cast<int>(f->value().size()),
-                                       f->value().data());
+                                       f->value().empty() ? &none : f->value().data());
   } else if (const auto* s = dynamic_cast<const Imf::StringVectorAttribute*>(&from)) {
     std::vector<const char*> texts;
     for (const std::string& text : s->value()) texts.push_back(text.c_str());
-    result = exr_attr_set_string_vector(at.to, at.part, at.name, static_cast<int>(texts.size()), texts.data());
+    const char* none = "";
+    result = exr_attr_set_string_vector(at.to, at.part, at.name, static_cast<int>(texts.size()),
+                                        texts.empty() ? &none : texts.data());
   } else if (const auto* p = dynamic_cast<const Imf::PreviewImageAttribute*>(&from)) {
     static_assert(sizeof(Imf::PreviewRgba) == 4);
     const exr_attr_preview_t value = {p->value().width(), p->value().height(), 0,

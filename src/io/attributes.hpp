@@ -9,8 +9,8 @@
 
 namespace spectile::io {
 
-/// Copies every attribute of `from` that describes the picture rather than how it is stored, but for those named in
-/// `replaced`, into a part being written. Types that this build does not know travel as they are.
+/// Copies every attribute of `from` that describes the picture rather than how it is stored, but for those
+/// named in `replaced`, into a part being written. Types that this build does not know travel as they are.
 exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part,
                              const std::vector<std::string>& replaced);
 

@@ -1,6 +1,5 @@
 // Names of OpenEXR's compression methods.
 #include <charconv>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -36,22 +35,25 @@ Result<Compression> Compression::parse(std::string_view text) {
     const auto [end, error] = std::from_chars(level.data(), level.data() + level.size(), out.level);
     const bool number = error == std::errc{} && end == level.data() + level.size();
     if (!number || out.level < 1 || out.level > method.highest_level) {
-      return make_error(ErrorCode::kBadArgument,
-                        "compression \"{}\": zip and zips take a level of 1 to 9, dwaa and dwab one of 1 to 500, the "
-                        "others none",
-                        text);
+      return make_error(
+          ErrorCode::kBadArgument,
+          "compression \"{}\": zip and zips take a level of 1 to 9, dwaa and dwab one of 1 to 500, the "
+          "others none",
+          text);
     }
     return out;
   }
-  return make_error(ErrorCode::kUnknownName,
-                    "compression \"{}\" is unknown; there are none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab",
-                    text);
+  return make_error(
+      ErrorCode::kUnknownName,
+      "compression \"{}\" is unknown; there are none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab",
+      text);
 }
 
 std::string Compression::description() const {
   for (const auto& method : kMethods) {
     if (method.kind != kind) continue;
-    return method.highest_level > 0 && level >= 0 ? fmt::format("{}:{}", method.name, level) : std::string(method.name);
+    return method.highest_level > 0 && level >= 0 ? fmt::format("{}:{}", method.name, level)
+                                                  : std::string(method.name);
   }
   return "none";
 }

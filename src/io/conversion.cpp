@@ -17,7 +17,9 @@ void PixelCount::add(std::uint64_t more, int x, int y) {
   count += more;
 }
 
-void PixelCount::add(const PixelCount& later) { add(later.count, later.first_x, later.first_y); }
+void PixelCount::add(const PixelCount& later) {
+  add(later.count, later.first_x, later.first_y);
+}
 
 void LineStats::add(const LineStats& later) {
   nonfinite.add(later.nonfinite);
@@ -88,7 +90,8 @@ class Run {
 
   /// The strip that starts at `first`, and the reading of the one after it under way.
   Result<std::shared_ptr<Strip>> next_strip(int first) {
-    auto strip = ahead_.valid() ? ahead_.get() : job_.read(first, std::min(strip_lines_, writer_.height() - first));
+    auto strip =
+        ahead_.valid() ? ahead_.get() : job_.read(first, std::min(strip_lines_, writer_.height() - first));
     const int after = first + strip_lines_;
     if (strip && read_ahead_ && after < writer_.height()) {
       ahead_ = std::async(std::launch::async, [this, after] {

@@ -7,10 +7,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <spectile/image.hpp>
 #include <string>
 #include <vector>
-
-#include <spectile/image.hpp>
 
 #include "kernels/abi.hpp"
 #include "src/io/exr_writer.hpp"
@@ -42,8 +41,8 @@ class LineJob {
   virtual ~LineJob() = default;
   /// Reads lines into a strip; in order, one call at a time.
   virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
-  /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells which of
-  /// the job's work spaces to use; calls with different slots run side by side.
+  /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells
+  /// which of the job's work spaces to use; calls with different slots run side by side.
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
 };
 
@@ -57,7 +56,8 @@ Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t sl
                                  const ImageOptions& options,
                                  const std::function<bool(const LineStats&)>& stop_at);
 
-/// The error for a conversion that stopped at pixels it may not convert; `what` is "non-finite" or "negative".
+/// The error for a conversion that stopped at pixels it may not convert; `what` is "non-finite" or
+/// "negative".
 Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,
                  const char* remedy);
 

@@ -18,7 +18,7 @@ std::vector<char> encode_dwa(Imf::Compression method, int level, const std::vect
   Imf::FrameBuffer source;
   for (const PackedChannel& channel : channels) {
     const auto type = static_cast<Imf::PixelType>(channel.type);
-    header.channels().insert(channel.name, Imf::Channel(type, 1, 1, true));
+    header.channels().insert(channel.name, Imf::Channel(type));
     // OpenEXR takes a mutable pointer for reading too.
     char* const base = const_cast<char*>(reinterpret_cast<const char*>(packed)) + channel.offset;
     source.insert(channel.name, Imf::Slice(type, base, channel.type == EXR_PIXEL_HALF ? 2 : 4, line_bytes));

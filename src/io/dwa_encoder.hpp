@@ -16,8 +16,8 @@ struct PackedChannel {
   std::size_t offset;  ///< bytes from a line's start
 };
 
-/// Compresses `lines` packed lines of `width` pixels with OpenEXR's C++ library, by writing them as an image in memory
-/// and taking its only chunk out. `level` is DWA's own, -1 for OpenEXR's default (45). May throw.
+/// Compresses `lines` packed lines of `width` pixels with OpenEXR's C++ library, by writing them as an image
+/// in memory and taking its only chunk out. `level` is DWA's own, -1 for OpenEXR's default (45). May throw.
 std::vector<char> encode_dwa(Imf::Compression method, int level, const std::vector<PackedChannel>& channels,
                              std::size_t line_bytes, int width, int lines, const std::byte* packed);
 

@@ -28,7 +28,8 @@ std::string one_line(std::string text) {
 }
 
 Result<void> check_is_exr(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Not to wait for the writer of a pipe.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return system_error(path, "read", errno);
   struct stat status {};
   std::array<unsigned char, 4> magic{};
@@ -52,8 +53,8 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
     action();
     return {};
   } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kBadFile, "{}: needs more memory than there is (a damaged file may claim any size)",
-                      path);
+    return make_error(ErrorCode::kBadFile,
+                      "{}: needs more memory than there is (a damaged file may claim any size)", path);
   } catch (const std::exception& error) {
     std::string text = one_line(error.what());
     // The library's messages often begin with the file's name in some form of sentence.
@@ -75,7 +76,8 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
   }));
   bool flat = false;
   for (int part = 0; part < input->parts(); ++part) flat = flat || !input->deep(part);
-  if (!flat) return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
+  if (!flat)
+    return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
   return input;
 }
 

@@ -7,9 +7,8 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-
 #include <spectile/result.hpp>
+#include <string>
 
 namespace spectile::io {
 
@@ -20,7 +19,8 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
 class ExrInput {
  public:
   /// Opens and checks the headers of every part.
-  /// Errors: kBadFile (missing, a directory, not OpenEXR, damaged, deep only, larger than kMaxSide); kNoPermission.
+  /// Errors: kBadFile (missing, a directory, not OpenEXR, damaged, deep only, larger than kMaxSide);
+  /// kNoPermission.
   static Result<std::unique_ptr<ExrInput>> open(const std::string& path, int threads);
 
   // Pixels along a side that are believed; more is taken for damage.

@@ -1,4 +1,5 @@
-// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in order.
+// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in
+// order.
 #include "src/io/exr_writer.hpp"
 
 #include <algorithm>
@@ -23,9 +24,9 @@ struct ExrWriter::Encoder {
   const Pack* pack = nullptr;
   int first_line = 0;
   bool ready = false;
-  std::vector<std::byte> lines;      // for DWA, which has its own encoder
-  std::vector<char> compressed;      // ... and its result
-  std::unique_ptr<ZipEncoder> zip;   // for ZIP and ZIPS
+  std::vector<std::byte> lines;       // for DWA, which has its own encoder
+  std::vector<char> compressed;       // ... and its result
+  std::unique_ptr<ZipEncoder> zip;    // for ZIP and ZIPS
   std::span<const std::byte> result;  // what is to be written
 
   /// The pack step of the pipeline: the caller's last kernels write straight into the packed lines.
@@ -40,6 +41,13 @@ struct ExrWriter::Encoder {
 };
 
 namespace {
+
+// What OpenEXR last complained of on this thread, which is the one that gets the failed call's code. Its
+// handler may not ask the context for anything: the context is locked while it is called.
+thread_local std::string said_last;
+
+// Longest name that every version of OpenEXR reads.
+constexpr std::size_t kShortName = 31;
 
 int lines_per_chunk_of(CompressionKind kind) {
   switch (kind) {
@@ -84,9 +92,13 @@ exr_compression_t compression_type(CompressionKind kind) {
   return EXR_COMPRESSION_NONE;
 }
 
-bool is_zip(CompressionKind kind) { return kind == CompressionKind::kZip || kind == CompressionKind::kZips; }
+bool is_zip(CompressionKind kind) {
+  return kind == CompressionKind::kZip || kind == CompressionKind::kZips;
+}
 
-bool is_dwa(CompressionKind kind) { return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab; }
+bool is_dwa(CompressionKind kind) {
+  return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab;
+}
 
 }  // namespace
 
@@ -112,8 +124,7 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, co
 
 Error ExrWriter::failure(const char* doing, exr_result_t code) {
   if (code == EXR_ERR_OUT_OF_MEMORY) return make_error(ErrorCode::kOutOfMemory, "{}: out of memory", path_);
-  const std::scoped_lock lock(message_mutex_);
-  std::string text = last_message_.empty() ? exr_get_default_error_message(code) : last_message_;
+  std::string text = said_last.empty() ? exr_get_default_error_message(code) : said_last;
   std::replace(text.begin(), text.end(), '\n', ' ');
   return make_error(ErrorCode::kBadFile, "{}: cannot {}: {}", path_, doing, text);
 }
@@ -126,16 +137,9 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   path_ = path;
   exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
   init.user_data = this;
-  init.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* message) {
-    void* user = nullptr;
-    if (exr_get_user_data(context, &user) == EXR_ERR_SUCCESS && user != nullptr) {
-      auto* self = static_cast<ExrWriter*>(user);
-      const std::scoped_lock lock(self->message_mutex_);
-      self->last_message_ = message;
-    }
-  };
-  init.write_fn = [](exr_const_context_t, void* user, const void* data, std::uint64_t bytes, std::uint64_t offset,
-                     exr_stream_error_func_ptr_t) -> std::int64_t {
+  init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* message) { said_last = message; };
+  init.write_fn = [](exr_const_context_t, void* user, const void* data, std::uint64_t bytes,
+                     std::uint64_t offset, exr_stream_error_func_ptr_t) -> std::int64_t {
     auto* self = static_cast<ExrWriter*>(user);
     if (!self->io_result_) return -1;
     self->io_result_ = self->file_.write_at(data, bytes, offset);
@@ -151,15 +155,24 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   int part = 0;
   SPECTILE_TRY(check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part)));
 
+  bool long_names = false;
+  for (const ChannelSpec& channel : spec.channels)
+    long_names = long_names || channel.name.size() > kShortName;
+  for (auto it = spec.source->begin(); it != spec.source->end(); ++it) {
+    long_names = long_names || std::strlen(it.name()) > kShortName ||
+                 std::strlen(it.attribute().typeName()) > kShortName;
+  }
+  if (long_names) exr_set_longname_support(context_, 1);
+
   const Imath::Box2i& data = spec.source->dataWindow();
   const Imath::Box2i& display = spec.source->displayWindow();
   const exr_attr_box2i_t data_window = {{data.min.x, data.min.y}, {data.max.x, data.max.y}};
   const exr_attr_box2i_t display_window = {{display.min.x, display.min.y}, {display.max.x, display.max.y}};
   const exr_attr_v2f_t centre = {spec.source->screenWindowCenter().x, spec.source->screenWindowCenter().y};
-  SPECTILE_TRY(check(exr_initialize_required_attr(context_, part, &display_window, &data_window,
-                                                  spec.source->pixelAspectRatio(), &centre,
-                                                  spec.source->screenWindowWidth(), EXR_LINEORDER_INCREASING_Y,
-                                                  compression_type(spec.compression.kind))));
+  SPECTILE_TRY(check(
+      exr_initialize_required_attr(context_, part, &display_window, &data_window,
+                                   spec.source->pixelAspectRatio(), &centre, spec.source->screenWindowWidth(),
+                                   EXR_LINEORDER_INCREASING_Y, compression_type(spec.compression.kind))));
   SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
   for (const auto& [name, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
@@ -179,8 +192,8 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   compression_ = spec.compression;
   for (const std::size_t i : order) {
     const ChannelSpec& channel = spec.channels[i];
-    SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), channel.type, EXR_PERCEPTUALLY_LINEAR,
-                                       1, 1)));
+    SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), channel.type,
+                                       EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1)));
     offsets_[i] = line_bytes_;
     line_bytes_ += channel.sample_bytes() * static_cast<std::size_t>(width_);
   }
@@ -253,9 +266,14 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
   encoder.result = {static_cast<const std::byte*>(encoder.pipeline.compressed_buffer),
                     encoder.pipeline.compressed_bytes};
+  // A reader takes a chunk that is no smaller than its pixels for stored as they are; OpenEXR 3.1's B44 forgets it.
+  if (encoder.result.size() >= encoder.pipeline.packed_bytes) {
+    encoder.result = {static_cast<const std::byte*>(encoder.pipeline.packed_buffer), encoder.pipeline.packed_bytes};
+  }
   if (!is_zip(compression_.kind)) return {};
   return guarded(path_, [&] {
-    if (!encoder.zip) encoder.zip = std::make_unique<ZipEncoder>(compression_.level > 0 ? compression_.level : 6);
+    if (!encoder.zip)
+      encoder.zip = std::make_unique<ZipEncoder>(compression_.level > 0 ? compression_.level : 6);
     encoder.result = encoder.zip->encode(encoder.result);
   });
 }

@@ -1,4 +1,5 @@
-// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in order.
+// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in
+// order.
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>
@@ -8,12 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include <spectile/image.hpp>
 #include <spectile/result.hpp>
+#include <string>
+#include <vector>
 
 #include "src/io/atomic_file.hpp"
 
@@ -26,8 +25,8 @@ struct ChannelSpec {
   std::size_t sample_bytes() const { return type == EXR_PIXEL_HALF ? 2 : 4; }
 };
 
-/// All that a file's header needs. `source` gives windows, aspect and every attribute that describes the picture;
-/// those that describe its storage are left behind, and so are those named in `replaced`.
+/// All that a file's header needs. `source` gives windows, aspect and every attribute that describes the
+/// picture; those that describe its storage are left behind, and so are those named in `replaced`.
 struct ImageSpec {
   const Imf::Header* source = nullptr;
   std::vector<ChannelSpec> channels;  // names must be unique; the order is free
@@ -86,9 +85,7 @@ class ExrWriter {
   int first_y_ = 0;
   int lines_per_chunk_ = 1;
   std::uint64_t bytes_written_ = 0;
-  Result<void> io_result_;    // what the system said when a write failed; only the writing thread touches it
-  std::mutex message_mutex_;  // encoders on several threads may complain at once
-  std::string last_message_;  // what OpenEXR said last
+  Result<void> io_result_;  // what the system said when a write failed; only the writing thread touches it
 };
 
 /// Bytes of work space one slot of an encoder needs, about.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -30,16 +29,19 @@ const char* type_name(Imf::PixelType type) {
 }
 
 std::string compression_name(Imf::Compression compression) {
-  constexpr const char* kNames[] = {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  constexpr const char* kNames[] = {"none",  "rle", "zips", "zip",  "piz",
+                                    "pxr24", "b44", "b44a", "dwaa", "dwab"};
   const auto i = static_cast<std::size_t>(compression);
   return i < std::size(kNames) ? kNames[i] : "unknown";
 }
 
 /// Channels to look at: ordinary ones by name, then spectral ones by wavelength. Subsampled ones are not.
-std::vector<io::PlaneSpec> planes_of(const Imf::Header& header, const std::optional<io::SpectralChannels>& spectral) {
+std::vector<io::PlaneSpec> planes_of(const Imf::Header& header,
+                                     const std::optional<io::SpectralChannels>& spectral) {
   std::vector<io::PlaneSpec> planes;
   const auto is_spectral = [&](const std::string& name) {
-    return spectral && std::find(spectral->names.begin(), spectral->names.end(), name) != spectral->names.end();
+    return spectral &&
+           std::find(spectral->names.begin(), spectral->names.end(), name) != spectral->names.end();
   };
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1 || is_spectral(it.name())) continue;
@@ -67,7 +69,9 @@ void count_line(const io::Strip& strip, std::size_t plane, Imf::PixelType type, 
   }
 }
 
-std::array<int, 4> corners(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x, box.max.y}; }
+std::array<int, 4> corners(const Imath::Box2i& box) {
+  return {box.min.x, box.min.y, box.max.x, box.max.y};
+}
 
 void describe_header(const Imf::Header& header, ImageInfo& info) {
   info.width = io::width_of(header);
@@ -99,7 +103,8 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
     if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
     info.bands = *bands;
   }
-  if (pixel && ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {
+  if (pixel &&
+      ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {
     return make_error(ErrorCode::kBadArgument, "pixel {},{} lies outside the image of {} x {}", (*pixel)[0],
                       (*pixel)[1], info.width, info.height);
   }
@@ -146,7 +151,8 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
 
 }  // namespace
 
-Result<ImageInfo> inspect_image(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads) {
+Result<ImageInfo> inspect_image(const std::string& path, std::optional<std::array<int, 2>> pixel,
+                                int threads) {
   return io::contained<ImageInfo>(path, [&] { return inspect(path, pixel, threads); });
 }
 

@@ -1,6 +1,7 @@
 // Operations on one line of colour that the image jobs share.
 #include "src/io/lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,29 +37,30 @@ int first_where(std::size_t width, Test test) {
 
 }  // namespace
 
-std::uint64_t settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                               NonFinite policy, LineStats& stats) {
-  const std::uint64_t found = scan(kernels, rows, width).nonfinite;
-  if (found == 0) return 0;
-  const auto bad = [&](std::size_t x) {
-    return !std::isfinite(rows[0][x]) || !std::isfinite(rows[1][x]) || !std::isfinite(rows[2][x]);
-  };
-  stats.nonfinite.add(found, first_where(width, bad), line);
-  if (policy == NonFinite::kZero) {
-    for (std::size_t x = 0; x < width; ++x) {
-      if (bad(x)) rows[0][x] = rows[1][x] = rows[2][x] = 0.0F;
-    }
+void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
+                      NonFinite policy, LineStats& stats) {
+  const kernels::RgbScan found = scan(kernels, rows, width);
+  if (found.nonfinite == 0 && found.negative == 0 && found.maximum <= kLargestComponent) return;
+  for (std::size_t x = 0; x < width; ++x) {
+    bool good = true;
+    for (std::size_t k = 0; k < 3; ++k) good = good && std::fabs(rows[k][x]) <= kLargestComponent;
+    if (good) continue;
+    stats.nonfinite.add(1, static_cast<int>(x), line);
+    if (policy == NonFinite::kZero) rows[0][x] = rows[1][x] = rows[2][x] = 0.0F;
   }
-  return found;
 }
 
 float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
                    Negative policy, LineStats& stats) {
   const kernels::RgbScan found = scan(kernels, rows, width);
   stats.over_one += found.over_one;
+  float largest = found.maximum;
   if (found.negative > 0) {
     const auto below = [&](std::size_t x) { return rows[0][x] < 0 || rows[1][x] < 0 || rows[2][x] < 0; };
     stats.negative.add(found.negative, first_where(width, below), line);
+    for (std::size_t x = 0; x < width; ++x) {
+      for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, -rows[k][x]);
+    }
     if (policy == Negative::kClip) {
       const std::size_t padded = blocks_for(width) * kLanesPerBlock;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -66,7 +68,7 @@ float settle_range(const kernels::KernelTable& kernels, float* const rows[3], st
       }
     }
   }
-  return found.maximum;
+  return largest;
 }
 
 }  // namespace spectile::io

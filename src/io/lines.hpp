@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-
 #include <spectile/image.hpp>
 
 #include "kernels/abi.hpp"
@@ -18,13 +17,16 @@ struct ColorLine {
   static Result<ColorLine> create(int width);
 };
 
-/// Counts and, when asked to, blackens the pixels of a line that are not finite.
-/// Rows are padded with finite values. Returns the number of those pixels.
-std::uint64_t settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                               NonFinite policy, LineStats& stats);
+/// Largest magnitude of a component that is converted: beyond it sums of products could overflow.
+inline constexpr float kLargestComponent = 0x1p124F;
 
-/// Counts pixels with a component below 0 and above 1, and clips the former when asked to. Returns the largest
-/// component.
+/// Counts and, when asked to, blackens the pixels of a line that are not finite, or beyond kLargestComponent.
+/// Rows are padded with zeros.
+void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
+                      NonFinite policy, LineStats& stats);
+
+/// Counts pixels with a component below 0 and above 1, and clips the former when asked to. Returns the
+/// largest magnitude of a component.
 float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
                    Negative policy, LineStats& stats);
 

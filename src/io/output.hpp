@@ -2,9 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <string>
-
 #include <spectile/image.hpp>
+#include <string>
 
 #include "src/io/conversion.hpp"
 #include "src/io/exr_input.hpp"
@@ -18,7 +17,8 @@ Result<void> check_distinct(const std::string& input, const std::string& output)
 /// Size, counts and bytes of a finished conversion.
 ImageReport report_of(const ExrWriter& writer, const LineStats& stats);
 
-/// Runs `action`; whatever a library throws inside becomes an error that names `path`, for the library's boundary.
+/// Runs `action`; whatever a library throws inside becomes an error that names `path`, for the library's
+/// boundary.
 template <class T>
 Result<T> contained(const std::string& path, const std::function<Result<T>()>& action) {
   Result<T> result = Error{};

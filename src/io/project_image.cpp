@@ -1,8 +1,8 @@
 // project_image: a spectral image becomes sRGB, XYZ or luminance, line by line.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -33,16 +33,18 @@ class ProjectJob : public io::LineJob {
              const kernels::KernelTable& kernels)
       : source_(source), projector_(projector), options_(options), kernels_(kernels) {
     matrix_ = color::to_float(xyz_to_srgb_matrix());
+    color_names_ = names_of(options.target);
   }
 
   /// Output channels: the colour, then those that pass through.
   std::vector<io::ChannelSpec> channels() const {
     const exr_pixel_type_t type = options_.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
     std::vector<io::ChannelSpec> out;
-    for (const char* name : color_names()) out.push_back({name, type});
+    for (const char* name : color_names_) out.push_back({name, type});
     for (std::size_t i = source_.bands().count(); i < source_.planes().size(); ++i) {
       const io::PlaneSpec& plane = source_.planes()[i];
-      const bool taken = std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.name == plane.name; });
+      const bool taken =
+          std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.name == plane.name; });
       if (taken) continue;
       const exr_pixel_type_t passing = plane.type == Imf::HALF    ? EXR_PIXEL_HALF
                                        : plane.type == Imf::FLOAT ? EXR_PIXEL_FLOAT
@@ -55,7 +57,7 @@ class ProjectJob : public io::LineJob {
   Result<void> prepare(const io::ExrWriter& writer, const std::vector<io::ChannelSpec>& channels,
                        std::size_t slots) {
     writer_ = &writer;
-    for (std::size_t i = color_names().size(); i < channels.size(); ++i) {
+    for (std::size_t i = color_names_.size(); i < channels.size(); ++i) {
       const auto& planes = source_.planes();
       for (std::size_t p = source_.bands().count(); p < planes.size(); ++p) {
         if (planes[p].name == channels[i].name) passing_.push_back({i, p});
@@ -65,7 +67,8 @@ class ProjectJob : public io::LineJob {
       Work work;
       auto color = io::ColorLine::create(source_.width());
       auto spectra = FloatBuffer::create(source_.bands().count() * kLanesPerBlock * tile_blocks());
-      auto halves = FloatBuffer::create(blocks_for(static_cast<std::size_t>(source_.width())) * kLanesPerBlock / 2);
+      auto halves =
+          FloatBuffer::create(blocks_for(static_cast<std::size_t>(source_.width())) * kLanesPerBlock / 2);
       if (!color) return color.error();
       if (!spectra) return spectra.error();
       if (!halves) return halves.error();
@@ -77,7 +80,9 @@ class ProjectJob : public io::LineJob {
     return {};
   }
 
-  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override { return source_.read(first_line, lines); }
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
+    return source_.read(first_line, lines);
+  }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
@@ -91,7 +96,8 @@ class ProjectJob : public io::LineJob {
     }
     io::settle_range(kernels_, rows, width, line, Negative::kKeep, stats);
     if (packed == nullptr) return;
-    for (std::size_t k = 0; k < color_names().size(); ++k) store_row(work, rows[k], width, k, packed, stats);
+    if (options_.pixel == PixelType::kHalf) stats.limited += limit_to_half(rows, width);
+    for (std::size_t k = 0; k < color_names_.size(); ++k) store_row(work, rows[k], width, k, packed);
     for (const auto& [channel, plane] : passing_) {
       std::memcpy(packed + writer_->channel_offset(channel), strip.row(plane, line),
                   width * source_.planes()[plane].sample_bytes());
@@ -99,8 +105,8 @@ class ProjectJob : public io::LineJob {
   }
 
  private:
-  std::vector<const char*> color_names() const {
-    switch (options_.target) {
+  static std::vector<const char*> names_of(ColorTarget target) {
+    switch (target) {
       case ColorTarget::kXyz:
         return {"X", "Y", "Z"};
       case ColorTarget::kLuminance:
@@ -124,14 +130,16 @@ class ProjectJob : public io::LineJob {
       const std::size_t count = std::min(tile_blocks(), blocks - first);
       const std::size_t at = first * kLanesPerBlock;
       for (std::size_t b = 0; b < count; ++b) {
-        source_.block(kernels_, strip, line, at + b * kLanesPerBlock, work.spectra.data() + b * bands * kLanesPerBlock);
+        source_.block(kernels_, strip, line, at + b * kLanesPerBlock,
+                      work.spectra.data() + b * bands * kLanesPerBlock);
       }
       float* const* rows = work.color.rows;
       if (options_.target == ColorTarget::kLuminance) {
-        kernels_.weighted_sum(rows[0] + at, work.spectra.data(), projector_.luminance_weights(), bands, count);
+        kernels_.weighted_sum(rows[0] + at, work.spectra.data(), projector_.luminance_weights(), bands,
+                              count);
       } else {
-        kernels_.project(rows[0] + at, rows[1] + at, rows[2] + at, work.spectra.data(), projector_.float_weights(),
-                         bands, count);
+        kernels_.project(rows[0] + at, rows[1] + at, rows[2] + at, work.spectra.data(),
+                         projector_.float_weights(), bands, count);
       }
     }
     if (options_.target == ColorTarget::kLuminance) {
@@ -142,17 +150,31 @@ class ProjectJob : public io::LineJob {
     }
   }
 
-  void store_row(Work& work, float* row, std::size_t width, std::size_t channel, std::byte* packed,
-                 LineStats& stats) const {
+  /// Limits what a half cannot hold, and counts its pixels.
+  std::uint64_t limit_to_half(float* const rows[3], std::size_t width) const {
+    std::uint64_t limited = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      bool beyond = false;
+      for (std::size_t k = 0; k < color_names_.size(); ++k)
+        beyond = beyond || std::fabs(rows[k][x]) > kernels::kHalfMax;
+      limited += beyond ? 1 : 0;
+    }
+    if (limited > 0) {
+      const std::size_t padded = blocks_for(width) * kLanesPerBlock;
+      for (std::size_t k = 0; k < 3; ++k) {
+        kernels_.clamp(rows[k], rows[k], -kernels::kHalfMax, kernels::kHalfMax, padded);
+      }
+    }
+    return limited;
+  }
+
+  void store_row(Work& work, const float* row, std::size_t width, std::size_t channel,
+                 std::byte* packed) const {
     std::byte* const out = packed + writer_->channel_offset(channel);
     if (options_.pixel == PixelType::kFloat) {
       std::memcpy(out, row, width * sizeof(float));
       return;
     }
-    for (std::size_t x = 0; x < width; ++x) {
-      stats.limited += row[x] > kernels::kHalfMax || row[x] < -kernels::kHalfMax ? 1 : 0;
-    }
-    kernels_.clamp(row, row, -kernels::kHalfMax, kernels::kHalfMax, work.color.padded);
     auto* const halves = reinterpret_cast<std::uint16_t*>(work.halves.data());
     kernels_.float_to_half(halves, row, work.color.padded);
     std::memcpy(out, halves, width * sizeof(std::uint16_t));
@@ -165,6 +187,7 @@ class ProjectJob : public io::LineJob {
   const io::ExrWriter* writer_ = nullptr;
   std::vector<Work> works_;
   std::vector<std::pair<std::size_t, std::size_t>> passing_;  // output channel, source plane
+  std::vector<const char*> color_names_;
   std::array<float, 9> matrix_{};
 };
 
@@ -172,7 +195,8 @@ Result<Projector> projector_for(const io::SpectralSource& source, const std::str
                                 const ProjectImageOptions& options) {
   if (source.quantity() == Quantity::kIlluminant) {
     if (options.light) {
-      return make_error(ErrorCode::kBadArgument, "{}: holds light, not reflectances; it takes no illuminant", input);
+      return make_error(ErrorCode::kBadArgument, "{}: holds light, not reflectances; it takes no illuminant",
+                        input);
     }
     return Projector::emissive(source.bands(), options.observer);
   }
@@ -200,7 +224,8 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.channels = job.channels();
   spec.compression = options.compression;
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
-  spec.replaced = {"spectralLayoutVersion", "emissiveUnits", "spectileMethod", "chromaticities", "colorInteropID"};
+  spec.replaced = {"spectralLayoutVersion", "emissiveUnits", "spectileMethod", "chromaticities",
+                   "colorInteropID"};
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);

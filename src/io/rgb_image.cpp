@@ -1,7 +1,6 @@
 // read_rgb_image and write_rgb_image: RGB in memory, for what is not worth streaming.
 #include <algorithm>
 #include <cstring>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -100,7 +99,8 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
                    const ImageOptions& options) {
   if (width <= 0 || height <= 0 ||
       rgb.lanes != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-    return make_error(ErrorCode::kSizeMismatch, "{} lanes are not an image of {} x {}", rgb.lanes, width, height);
+    return make_error(ErrorCode::kSizeMismatch, "{} lanes are not an image of {} x {}", rgb.lanes, width,
+                      height);
   }
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
@@ -116,7 +116,8 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
   if (!writer) return writer.error();
   MemoryJob job(rgb, width, options.pixel, **kernels);
   SPECTILE_TRY(job.prepare(**writer, slots));
-  const auto stats = io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
+  const auto stats =
+      io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
   if (!stats) return stats.error();
   return {};
 }

@@ -23,11 +23,14 @@ bool has_view(const Imf::Header& header, const std::string& view) {
   return header.hasView() && header.view() == view;
 }
 
-Imf::PixelType read_type(Imf::PixelType stored) { return stored == Imf::HALF ? Imf::HALF : Imf::FLOAT; }
+Imf::PixelType read_type(Imf::PixelType stored) {
+  return stored == Imf::HALF ? Imf::HALF : Imf::FLOAT;
+}
 
 }  // namespace
 
-Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer, int threads) {
+Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
+                                                   int threads) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<RgbSource> source(new RgbSource);
@@ -59,7 +62,8 @@ Result<void> RgbSource::choose(const std::string& layer) {
   }
   if (!found) {
     if (layer.empty()) return make_error(ErrorCode::kBadFile, "{}: has no channels R, G, B (nor Y)", path);
-    return make_error(ErrorCode::kBadFile, "{}: has no layer, view or part \"{}\" with channels R, G, B", path, layer);
+    return make_error(ErrorCode::kBadFile, "{}: has no layer, view or part \"{}\" with channels R, G, B",
+                      path, layer);
   }
   for (auto it = header().channels().begin(); it != header().channels().end(); ++it) {
     if (parse_spectral_channel(it.name())) {
@@ -70,8 +74,9 @@ Result<void> RgbSource::choose(const std::string& layer) {
   for (const std::string& name : {red_, green_, blue_}) {
     const Imf::Channel& channel = channels[name.c_str()];
     if (!with_chroma_ && (channel.xSampling != 1 || channel.ySampling != 1)) {
-      return make_error(ErrorCode::kBadFile, "{}: channel \"{}\" is subsampled {} x {}, which is not supported", path,
-                        name, channel.xSampling, channel.ySampling);
+      return make_error(ErrorCode::kBadFile,
+                        "{}: channel \"{}\" is subsampled {} x {}, which is not supported", path, name,
+                        channel.xSampling, channel.ySampling);
     }
   }
   return {};

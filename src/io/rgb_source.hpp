@@ -4,10 +4,9 @@
 #include <OpenEXR/ImfRgbaFile.h>
 
 #include <memory>
+#include <spectile/result.hpp>
 #include <string>
 #include <vector>
-
-#include <spectile/result.hpp>
 
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/color_space.hpp"
@@ -21,7 +20,8 @@ class RgbSource {
  public:
   /// Finds R, G, B (or Y, or Y, RY, BY) of a layer, view or part, or the plain ones for an empty name.
   /// Errors: kBadFile, kNoPermission.
-  static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer, int threads);
+  static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer,
+                                                 int threads);
 
   const Imf::Header& header() const { return input_->header(part_); }
   int width() const { return width_of(header()); }
@@ -34,8 +34,10 @@ class RgbSource {
   /// Reads lines into a new strip. Errors: kBadFile, kOutOfMemory.
   Result<std::shared_ptr<Strip>> read(int first_line, int lines);
 
-  /// A line's R, G, B as floats, zero after the last pixel up to a whole block. rgb: three rows of padded width.
-  void float_rows(const kernels::KernelTable& kernels, const Strip& strip, int line, float* const rgb[3]) const;
+  /// A line's R, G, B as floats, zero after the last pixel up to a whole block. rgb: three rows of padded
+  /// width.
+  void float_rows(const kernels::KernelTable& kernels, const Strip& strip, int line,
+                  float* const rgb[3]) const;
 
  private:
   RgbSource() = default;

@@ -14,9 +14,9 @@ namespace {
 constexpr struct {
   std::string_view symbol;
   double factor;
-} kPrefixes[] = {{"Y", 1e24}, {"Z", 1e21},  {"E", 1e18}, {"P", 1e15}, {"T", 1e12}, {"G", 1e9},
-                 {"M", 1e6},  {"k", 1e3},   {"h", 1e2},  {"da", 1e1}, {"", 1.0},   {"d", 1e-1},
-                 {"c", 1e-2}, {"m", 1e-3},  {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+} kPrefixes[] = {{"Y", 1e24}, {"Z", 1e21}, {"E", 1e18}, {"P", 1e15}, {"T", 1e12}, {"G", 1e9},
+                 {"M", 1e6},  {"k", 1e3},  {"h", 1e2},  {"da", 1e1}, {"", 1.0},   {"d", 1e-1},
+                 {"c", 1e-2}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
 
 // Metres a second; exact by the definition of the metre.
 constexpr double kSpeedOfLight = 299792458.0;
@@ -30,7 +30,8 @@ bool take(std::string_view& text, std::string_view start) {
 }  // namespace
 
 std::string spectral_channel_name(SpectralKind kind, double wavelength_nm) {
-  std::string name = fmt::format("{}.{:.6f}nm", kind == SpectralKind::kReflective ? "T" : "S0", wavelength_nm);
+  std::string name =
+      fmt::format("{}.{:.6f}nm", kind == SpectralKind::kReflective ? "T" : "S0", wavelength_nm);
   const std::size_t point = name.rfind('.');
   name[point] = ',';
   return name;

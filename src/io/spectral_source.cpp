@@ -36,8 +36,8 @@ std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std
   return std::nullopt;
 }
 
-Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path, std::optional<Quantity> wanted,
-                                                             int threads) {
+Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
+                                                             std::optional<Quantity> wanted, int threads) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<SpectralSource> source(new SpectralSource);
@@ -50,9 +50,9 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   }
   if (!channels) {
     return make_error(ErrorCode::kBadFile, "{}: has no {}spectral channels (T.*nm, S0.*nm)", path,
-                      !wanted                              ? ""
+                      !wanted                             ? ""
                       : *wanted == Quantity::kReflectance ? "reflective "
-                                                           : "emissive ");
+                                                          : "emissive ");
   }
   const auto bands = Bands::from_centres(channels->centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
@@ -63,8 +63,9 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   for (const std::string& name : source->channels_.names) {
     const Imf::Channel& channel = list[name.c_str()];
     if (channel.xSampling != 1 || channel.ySampling != 1) {
-      return make_error(ErrorCode::kBadFile, "{}: channel \"{}\" is subsampled {} x {}, which is not supported", path,
-                        name, channel.xSampling, channel.ySampling);
+      return make_error(ErrorCode::kBadFile,
+                        "{}: channel \"{}\" is subsampled {} x {}, which is not supported", path, name,
+                        channel.xSampling, channel.ySampling);
     }
     source->planes_.push_back({name, channel.type == Imf::HALF ? Imf::HALF : Imf::FLOAT});
   }

@@ -3,11 +3,10 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
-
 #include <spectile/bands.hpp>
 #include <spectile/upsample.hpp>
+#include <string>
+#include <vector>
 
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/exr_input.hpp"
@@ -22,8 +21,8 @@ struct SpectralChannels {
   std::vector<double> centres_nm;
 };
 
-/// Finds a part's spectral channels of the quantity asked for, else the reflective ones, else the emissive ones.
-/// Nothing where there are none.
+/// Finds a part's spectral channels of the quantity asked for, else the reflective ones, else the emissive
+/// ones. Nothing where there are none.
 std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std::optional<Quantity> wanted);
 
 /// Planes 0 to bands - 1 of its strips are the bands, the others pass through.
@@ -44,9 +43,10 @@ class SpectralSource {
   /// Reads lines into a new strip. Errors: kBadFile, kOutOfMemory.
   Result<std::shared_ptr<Strip>> read(int first_line, int lines);
 
-  /// The spectra of kLanesPerBlock pixels from x on, as a block [band][64]; x a multiple of kLanesPerBlock, pixels
-  /// after the line's end zero.
-  void block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x, float* block) const;
+  /// The spectra of kLanesPerBlock pixels from x on, as a block [band][64]; x a multiple of kLanesPerBlock,
+  /// pixels after the line's end zero.
+  void block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
+             float* block) const;
 
  private:
   SpectralSource() = default;

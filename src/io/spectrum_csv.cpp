@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-
 #include <spectile/measured_spectrum.hpp>
 
 #include "src/base/errors.hpp"
@@ -37,7 +36,8 @@ std::optional<double> next_number(std::string_view& line) {
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return io::system_error(path, "read", errno);
-  if (!S_ISREG(status.st_mode)) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
+  if (!S_ISREG(status.st_mode))
+    return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
   std::ifstream file(path);
   if (!file) return io::system_error(path, "read", errno);
   std::vector<double> wavelengths;
@@ -58,8 +58,8 @@ Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
         heading_seen = true;
         continue;
       }
-      return make_error(ErrorCode::kBadFile, "{}: line {}: \"{}\" is not a wavelength in nm and a value", path, number,
-                        text);
+      return make_error(ErrorCode::kBadFile, "{}: line {}: \"{}\" is not a wavelength in nm and a value",
+                        path, number, text);
     }
     if (!std::isfinite(*wavelength) || !std::isfinite(*value)) {
       return make_error(ErrorCode::kBadFile, "{}: line {}: \"{}\" is not finite", path, number, text);

@@ -9,9 +9,13 @@
 
 namespace spectile::io {
 
-int width_of(const Imf::Header& header) { return header.dataWindow().max.x - header.dataWindow().min.x + 1; }
+int width_of(const Imf::Header& header) {
+  return header.dataWindow().max.x - header.dataWindow().min.x + 1;
+}
 
-int height_of(const Imf::Header& header) { return header.dataWindow().max.y - header.dataWindow().min.y + 1; }
+int height_of(const Imf::Header& header) {
+  return header.dataWindow().max.y - header.dataWindow().min.y + 1;
+}
 
 namespace {
 

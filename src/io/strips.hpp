@@ -5,11 +5,10 @@
 
 #include <cstddef>
 #include <memory>
-#include <string>
-#include <vector>
-
 #include <spectile/result.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <string>
+#include <vector>
 
 #include "src/io/exr_input.hpp"
 
@@ -29,7 +28,9 @@ struct Strip {
   std::vector<FloatBuffer> planes;
   std::vector<std::size_t> stride_bytes;
 
-  bool holds(int first, int count) const { return first >= first_line && first + count <= first_line + lines; }
+  bool holds(int first, int count) const {
+    return first >= first_line && first + count <= first_line + lines;
+  }
   /// Start of a plane's line; 64-byte aligned, readable up to whole blocks of lanes.
   const std::byte* row(std::size_t plane, int line) const {
     return reinterpret_cast<const std::byte*>(planes[plane].data()) +
@@ -41,7 +42,8 @@ struct Strip {
 };
 
 /// Memory for a strip of `width` pixels a line. Errors: kOutOfMemory.
-Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, int width, int first_line, int lines);
+Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, int width, int first_line,
+                                          int lines);
 
 /// Lines worth reading at once: several of the input's chunks, some 16 MiB, never more than `height`.
 int strip_lines(const Imf::Header& header, const std::vector<PlaneSpec>& planes, int at_least);

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -68,7 +67,7 @@ class UpsampleJob : public io::LineJob {
       if (!rgb) return rgb.error();
       work.rgb = *std::move(rgb);
       work.rows.resize(bands);
-      auto block = FloatBuffer::create((bands + 1) * kLanesPerBlock);
+      auto block = FloatBuffer::create((bands + 2) * kLanesPerBlock);
       if (!block) return block.error();
       work.block = *std::move(block);
       works_.push_back(std::move(work));
@@ -76,7 +75,9 @@ class UpsampleJob : public io::LineJob {
     return {};
   }
 
-  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override { return source_.read(first_line, lines); }
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
+    return source_.read(first_line, lines);
+  }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
@@ -84,13 +85,14 @@ class UpsampleJob : public io::LineJob {
     float* const* rows = work.rgb.rows;
     const float* const rgb[3] = {rows[0], rows[1], rows[2]};
     source_.float_rows(kernels_, strip, line, rows);
-    io::settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
+    // What is not finite stays so in at least one component.
     if (convert_) kernels_.transform3(rows, rgb, matrix_.data(), work.rgb.padded);
+    io::settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
     const float largest = io::settle_range(kernels_, rows, width, line, options_.negative, stats);
     if (packed == nullptr) return;
     pass_through(strip, line, packed);
     bands(work, rgb, width, packed);
-    if (options_.pixel == PixelType::kHalf && largest * largest_basis_ > kernels::kHalfMax) {
+    if (options_.pixel == PixelType::kHalf && 3 * largest * largest_basis_ > kernels::kHalfMax) {
       stats.limited += count_limited(work, rgb, width);
     }
   }
@@ -115,21 +117,24 @@ class UpsampleJob : public io::LineJob {
       }
       const float* const segment[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
       const auto kernel = half ? kernels_.smits_rows_half : kernels_.smits_rows_float;
-      kernel(work.rows.data(), segment, upsampler_.table(), upsampler_.lowest(), count,
-             std::min(segment_, width - at));
+      const float lowest = half ? std::max(upsampler_.lowest(), -kernels::kHalfMax) : upsampler_.lowest();
+      kernel(work.rows.data(), segment, upsampler_.table(), lowest, count, std::min(segment_, width - at));
     }
   }
 
   std::uint64_t count_limited(Work& work, const float* const rgb[3], std::size_t width) const {
     const std::size_t count = upsampler_.bands().count();
     float* const greatest = work.block.data() + count * kLanesPerBlock;
+    float* const least = greatest + kLanesPerBlock;
     std::uint64_t limited = 0;
     for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
       const float* const segment[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
-      kernels_.smits_blocks(work.block.data(), segment, upsampler_.table(), upsampler_.lowest(), count, 1, false);
+      kernels_.smits_blocks(work.block.data(), segment, upsampler_.table(), upsampler_.lowest(), count, 1,
+                            false);
       kernels_.maximum(greatest, work.block.data(), count, 1);
+      kernels_.minimum(least, work.block.data(), count, 1);
       for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
-        limited += greatest[i] > kernels::kHalfMax ? 1 : 0;
+        limited += greatest[i] > kernels::kHalfMax || least[i] < -kernels::kHalfMax ? 1 : 0;
       }
     }
     return limited;
@@ -154,7 +159,8 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
-  const auto negative = options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
+  const auto negative =
+      options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
   const auto upsampler = Upsampler::create(options.method, options.quantity, options.bands, negative);
   if (!upsampler) return upsampler.error();
   auto source = io::RgbSource::open(input, options.layer, threads);

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-
 #include <spectile/image.hpp>
 
 #include "src/base/errors.hpp"
@@ -23,7 +22,8 @@ constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the err
 
 /// NaN of any kind are the same result; their payload is not specified.
 bool same_result(float a, float b) {
-  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
 }
 
 void compare(const float* kernel, const float* expected, std::size_t n, VerifyReport& report) {
@@ -31,7 +31,8 @@ void compare(const float* kernel, const float* expected, std::size_t n, VerifyRe
     if (same_result(kernel[i], expected[i])) continue;
     ++report.different_samples;
     const double difference = std::abs(static_cast<double>(kernel[i]) - static_cast<double>(expected[i]));
-    report.max_kernel_difference = std::max(report.max_kernel_difference, std::isnan(difference) ? INFINITY : difference);
+    report.max_kernel_difference =
+        std::max(report.max_kernel_difference, std::isnan(difference) ? INFINITY : difference);
   }
   report.samples += n;
 }
@@ -45,8 +46,8 @@ void merge(const VerifyReport& from, VerifyReport& into) {
 
 /// Upsampling of one line of RGB, three ways.
 Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampler& upsampler,
-                              const std::vector<std::array<double, 7>>& oracle_basis, const float* const rgb[3],
-                              std::size_t width, VerifyReport& report) {
+                              const std::vector<std::array<double, 7>>& oracle_basis,
+                              const float* const rgb[3], std::size_t width, VerifyReport& report) {
   const std::size_t bands = upsampler.bands().count();
   auto memory = FloatBuffer::create(2 * bands * kLanesPerBlock);
   if (!memory) return memory.error();
@@ -79,7 +80,8 @@ Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampl
 /// Projection of one line of spectra, three ways.
 Result<void> verify_projected(const kernels::KernelTable& kernels, const io::SpectralSource& source,
                               const io::Strip& strip, int line, const Projector& projector,
-                              const std::vector<std::array<double, 3>>& oracle_weights, VerifyReport& report) {
+                              const std::vector<std::array<double, 3>>& oracle_weights,
+                              VerifyReport& report) {
   const std::size_t bands = source.bands().count();
   auto memory = FloatBuffer::create((bands + 6) * kLanesPerBlock);
   if (!memory) return memory.error();
@@ -91,7 +93,8 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     source.block(kernels, strip, line, at, block);
     const auto run = [&](const kernels::KernelTable& table, float* out) {
-      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block, projector.float_weights(), bands, 1);
+      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block, projector.float_weights(),
+                    bands, 1);
     };
     run(kernels, ours);
     run(reference::table, expected);
@@ -131,9 +134,18 @@ Result<void> over_lines(int first, int lines, int threads, VerifyReport& total, 
   return {};
 }
 
+/// Tells how far a check is. Errors: kCancelled.
+Result<void> go_on(const UpsampleImageOptions& options, int lines, int width, int height) {
+  const auto w = static_cast<std::uint64_t>(width);
+  const Progress progress = {static_cast<std::uint64_t>(lines) * w, static_cast<std::uint64_t>(height) * w};
+  if (!options.progress || options.progress(progress)) return {};
+  return make_error(ErrorCode::kCancelled, "stopped on request");
+}
+
 Result<VerifyReport> verify_rgb(io::RgbSource& source, const UpsampleImageOptions& options,
                                 const kernels::KernelTable& kernels) {
-  const auto negative = options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
+  const auto negative =
+      options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
   const auto upsampler = Upsampler::create(options.method, options.quantity, options.bands, negative);
   if (!upsampler) return upsampler.error();
   const auto oracle_basis = oracle::smits_basis(options.method, options.quantity, options.bands);
@@ -148,32 +160,39 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const UpsampleImageOption
     const int lines = std::min(step, source.height() - first);
     const auto strip = source.read(first, lines);
     if (!strip) return strip.error();
-    SPECTILE_TRY(over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) -> Result<void> {
-      auto color = io::ColorLine::create(source.width());
-      if (!color) return color.error();
-      const auto width = static_cast<std::size_t>(source.width());
-      const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
-      source.float_rows(kernels, **strip, line, color->rows);
-      if (!io::is_srgb(source.color_space())) kernels.transform3(color->rows, rgb, matrix.data(), color->padded);
-      io::LineStats stats;
-      io::settle_range(kernels, color->rows, width, line, options.negative, stats);
-      return verify_upsampled(kernels, *upsampler, oracle_basis, rgb, width, found);
-    }));
+    SPECTILE_TRY(
+        over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) -> Result<void> {
+          auto color = io::ColorLine::create(source.width());
+          if (!color) return color.error();
+          const auto width = static_cast<std::size_t>(source.width());
+          const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
+          source.float_rows(kernels, **strip, line, color->rows);
+          if (!io::is_srgb(source.color_space()))
+            kernels.transform3(color->rows, rgb, matrix.data(), color->padded);
+          io::LineStats stats;
+          io::settle_range(kernels, color->rows, width, line, options.negative, stats);
+          return verify_upsampled(kernels, *upsampler, oracle_basis, rgb, width, found);
+        }));
+    SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
   report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
   return report;
 }
 
-Result<VerifyReport> verify_spectral(io::SpectralSource& source, int threads, const kernels::KernelTable& kernels) {
+Result<VerifyReport> verify_spectral(io::SpectralSource& source, const UpsampleImageOptions& options,
+                                     const kernels::KernelTable& kernels) {
   const bool light = source.quantity() == Quantity::kIlluminant;
   const auto d65 = illuminant("D65");
   if (!d65) return d65.error();
-  const auto projector = light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
+  const auto projector =
+      light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
   if (!projector) return projector.error();
-  const auto weights = oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
+  const auto weights =
+      oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
   VerifyReport report;
   report.isa = kernels.name;
-  report.what = fmt::format("projection of {}, {} bands", to_string(source.quantity()), source.bands().count());
+  report.what =
+      fmt::format("projection of {}, {} bands", to_string(source.quantity()), source.bands().count());
   // Roundings of the sum and of the weights, and what the oracle's own sum at 0.01 nm is off by.
   report.oracle_bound = static_cast<double>(source.bands().count() + 2) * kUlp + 1e-8;
   const int step = io::strip_lines(source.header(), source.planes(), 1);
@@ -181,9 +200,10 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, int threads, co
     const int lines = std::min(step, source.height() - first);
     const auto strip = source.read(first, lines);
     if (!strip) return strip.error();
-    SPECTILE_TRY(over_lines(first, lines, threads, report, [&](int line, VerifyReport& found) {
+    SPECTILE_TRY(over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) {
       return verify_projected(kernels, source, **strip, line, *projector, weights, found);
     }));
+    SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
   report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
   return report;
@@ -194,7 +214,7 @@ Result<VerifyReport> verify(const std::string& path, const UpsampleImageOptions&
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
   auto spectral = io::SpectralSource::open(path, std::nullopt, threads);
-  if (spectral) return verify_spectral(**spectral, options.threads, **kernels);
+  if (spectral) return verify_spectral(**spectral, options, **kernels);
   auto rgb = io::RgbSource::open(path, options.layer, threads);
   if (!rgb) return rgb.error();
   return verify_rgb(**rgb, options, **kernels);

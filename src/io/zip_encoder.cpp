@@ -28,7 +28,9 @@ void differences(const std::uint8_t* in, std::uint8_t* out, std::size_t n) {
 
 }  // namespace
 
-void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept { libdeflate_free_compressor(c); }
+void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept {
+  libdeflate_free_compressor(c);
+}
 
 ZipEncoder::ZipEncoder(int level) : compressor_(libdeflate_alloc_compressor(level)) {
   if (compressor_ == nullptr) throw std::bad_alloc();
@@ -40,9 +42,10 @@ std::span<const std::byte> ZipEncoder::encode(std::span<const std::byte> packed)
   split_.resize(n);
   filtered_.resize(n);
   compressed_.resize(n);
-  split_bytes(reinterpret_cast<const std::uint8_t*>(packed.data()), reinterpret_cast<std::uint8_t*>(split_.data()), n);
-  differences(reinterpret_cast<const std::uint8_t*>(split_.data()), reinterpret_cast<std::uint8_t*>(filtered_.data()),
-              n);
+  split_bytes(reinterpret_cast<const std::uint8_t*>(packed.data()),
+              reinterpret_cast<std::uint8_t*>(split_.data()), n);
+  differences(reinterpret_cast<const std::uint8_t*>(split_.data()),
+              reinterpret_cast<std::uint8_t*>(filtered_.data()), n);
   // 0 when it does not fit: then the chunk is stored as it is, which its size tells a reader.
   const std::size_t size =
       libdeflate_zlib_compress(compressor_.get(), filtered_.data(), n, compressed_.data(), n - 1);

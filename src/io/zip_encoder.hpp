@@ -1,5 +1,5 @@
-// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by libdeflate, which is several times faster than
-// the zlib that OpenEXR 3.1 uses.
+// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by libdeflate, which is several times
+// faster than the zlib that OpenEXR 3.1 uses.
 #pragma once
 
 #include <cstddef>

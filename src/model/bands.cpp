@@ -2,7 +2,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-
 #include <spectile/bands.hpp>
 
 #include "src/base/errors.hpp"
@@ -51,19 +50,20 @@ Bands::Bands() {
 Result<Bands> Bands::uniform(double first_nm, double last_nm, double step_nm) {
   if (!std::isfinite(first_nm) || !std::isfinite(last_nm) || !std::isfinite(step_nm) || first_nm <= 0 ||
       step_nm <= 0 || last_nm <= first_nm) {
-    return make_error(ErrorCode::kBadArgument,
-                      "bands from {} to {} nm by {} nm: edges must be positive and ascending, the step positive",
-                      first_nm, last_nm, step_nm);
+    return make_error(
+        ErrorCode::kBadArgument,
+        "bands from {} to {} nm by {} nm: edges must be positive and ascending, the step positive", first_nm,
+        last_nm, step_nm);
   }
   const double steps = (last_nm - first_nm) / step_nm;
   if (steps > static_cast<double>(kMaxBands) + 0.5) {
-    return make_error(ErrorCode::kBadArgument, "bands from {} to {} nm by {} nm are more than {}", first_nm, last_nm,
-                      step_nm, kMaxBands);
+    return make_error(ErrorCode::kBadArgument, "bands from {} to {} nm by {} nm are more than {}", first_nm,
+                      last_nm, step_nm, kMaxBands);
   }
   const double whole = std::round(steps);
   if (whole < 1 || std::abs(steps - whole) > 1e-6) {
-    return make_error(ErrorCode::kBadArgument, "a step of {} nm does not divide the range from {} to {} nm", step_nm,
-                      first_nm, last_nm);
+    return make_error(ErrorCode::kBadArgument, "a step of {} nm does not divide the range from {} to {} nm",
+                      step_nm, first_nm, last_nm);
   }
   return from_list(uniform_list(first_nm, step_nm, static_cast<std::size_t>(whole)));
 }
@@ -106,14 +106,15 @@ Result<Bands> Bands::parse(std::string_view text) {
   for (const std::string_view part : split(text, range ? ':' : ',')) {
     const auto number = to_number(part);
     if (!number) {
-      return make_error(ErrorCode::kBadArgument, "bands \"{}\": \"{}\" is not a number; use FIRST:LAST:STEP in nm", text,
-                        part);
+      return make_error(ErrorCode::kBadArgument,
+                        "bands \"{}\": \"{}\" is not a number; use FIRST:LAST:STEP in nm", text, part);
     }
     numbers.push_back(*number);
   }
   if (!range) return from_centres(numbers);
   if (numbers.size() != 3) {
-    return make_error(ErrorCode::kBadArgument, "bands \"{}\" are not FIRST:LAST:STEP in nm, as in 400:700:5", text);
+    return make_error(ErrorCode::kBadArgument, "bands \"{}\" are not FIRST:LAST:STEP in nm, as in 400:700:5",
+                      text);
   }
   return uniform(numbers[0], numbers[1], numbers[2]);
 }
@@ -126,7 +127,8 @@ std::string Bands::description() const {
   bool even = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const double lower = first + static_cast<double>(i) * step;
-    even = even && std::abs(list[i].lower_nm - lower) < 1e-6 && std::abs(list[i].upper_nm - lower - step) < 1e-6;
+    even =
+        even && std::abs(list[i].lower_nm - lower) < 1e-6 && std::abs(list[i].upper_nm - lower - step) < 1e-6;
   }
   if (even) return fmt::format("{:g}:{:g}:{:g}", first, last, step);
   return fmt::format("{} bands from {:g} to {:g} nm", list.size(), first, last);

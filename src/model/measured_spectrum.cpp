@@ -1,10 +1,9 @@
 // Piecewise-linear spectra with exact integrals, and the CIE illuminants by name.
-#include <spectile/measured_spectrum.hpp>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numeric>
+#include <spectile/measured_spectrum.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
@@ -14,14 +13,15 @@ namespace spectile {
 Result<MeasuredSpectrum> MeasuredSpectrum::from_samples(std::span<const double> wavelengths_nm,
                                                         std::span<const double> values) {
   if (wavelengths_nm.size() != values.size()) {
-    return make_error(ErrorCode::kSizeMismatch, "the spectrum has {} wavelengths and {} values", wavelengths_nm.size(),
-                      values.size());
+    return make_error(ErrorCode::kSizeMismatch, "the spectrum has {} wavelengths and {} values",
+                      wavelengths_nm.size(), values.size());
   }
   if (values.empty()) return make_error(ErrorCode::kBadArgument, "the spectrum has no samples");
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(wavelengths_nm[i]) || !std::isfinite(values[i])) {
-      return make_error(ErrorCode::kBadArgument, "sample {} of the spectrum is {} at {} nm; both must be finite", i + 1,
-                        values[i], wavelengths_nm[i]);
+      return make_error(ErrorCode::kBadArgument,
+                        "sample {} of the spectrum is {} at {} nm; both must be finite", i + 1, values[i],
+                        wavelengths_nm[i]);
     }
   }
   std::vector<std::size_t> order(values.size());
@@ -52,7 +52,8 @@ namespace {
 template <class Segment>
 void for_segments(std::span<const double> breaks, double first, double last, Segment segment) {
   double from = first;
-  for (auto it = std::upper_bound(breaks.begin(), breaks.end(), first); it != breaks.end() && *it < last; ++it) {
+  for (auto it = std::upper_bound(breaks.begin(), breaks.end(), first); it != breaks.end() && *it < last;
+       ++it) {
     if (*it > from) segment(from, *it);
     from = *it;
   }
@@ -103,7 +104,8 @@ Result<std::vector<float>> average_over(const Bands& bands, std::span<const doub
   return spectrum->average_over(bands);
 }
 
-double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, double first_nm, double last_nm) {
+double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, double first_nm,
+                        double last_nm) {
   std::vector<double> breaks;
   std::merge(a.wavelengths_nm().begin(), a.wavelengths_nm().end(), b.wavelengths_nm().begin(),
              b.wavelengths_nm().end(), std::back_inserter(breaks));

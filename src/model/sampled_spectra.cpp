@@ -1,6 +1,5 @@
 // Construction of batches of spectra, scalars and colours.
 #include <algorithm>
-
 #include <spectile/sampled_spectra.hpp>
 
 #include "src/base/errors.hpp"
@@ -32,11 +31,12 @@ Result<SampledSpectra> SampledSpectra::constant(const Bands& bands, std::size_t 
 Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t lanes,
                                                  std::span<const float> values) {
   if (values.size() != bands.count()) {
-    return make_error(ErrorCode::kBandsMismatch, "the spectrum has {} values, the bands are {}", values.size(),
-                      bands.count());
+    return make_error(ErrorCode::kBandsMismatch, "the spectrum has {} values, the bands are {}",
+                      values.size(), bands.count());
   }
   if (too_many(lanes, bands.count())) {
-    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} bands do not fit in memory", lanes, bands.count());
+    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} bands do not fit in memory", lanes,
+                      bands.count());
   }
   const std::size_t blocks = blocks_for(lanes);
   auto buffer = FloatBuffer::create(blocks * bands.count() * kLanesPerBlock);

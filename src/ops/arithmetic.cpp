@@ -1,9 +1,8 @@
 // Element-wise arithmetic over whole batches, and reductions of each lane over its bands.
-#include <spectile/arithmetic.hpp>
-
 #include <array>
 #include <bit>
 #include <limits>
+#include <spectile/arithmetic.hpp>
 
 #include "src/dispatch/dispatch.hpp"
 #include "src/ops/shape.hpp"
@@ -42,7 +41,8 @@ Result<void> binary(Binary which, const SampledSpectraView& a, const SampledSpec
   });
 }
 
-Result<void> unary(Unary which, const SampledSpectraView& a, const SampledSpectraSpan& out, const Execution& how) {
+Result<void> unary(Unary which, const SampledSpectraView& a, const SampledSpectraSpan& out,
+                   const Execution& how) {
   return element_wise<1>({a}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     (k.*which)(out.data + at, a.data + at, n);
   });
@@ -50,7 +50,8 @@ Result<void> unary(Unary which, const SampledSpectraView& a, const SampledSpectr
 
 /// Runs kernel(table, first block, blocks, samples) over the lanes of `a` into `out`.
 template <class Kernel>
-Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const Execution& how, Kernel kernel) {
+Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const Execution& how,
+                      Kernel kernel) {
   SPECTILE_TRY(shape::same_lanes(a.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(out.data));
@@ -72,7 +73,8 @@ Result<LaneMask> mask_of(std::size_t lanes, const Execution& how, Kernel kernel)
   tiles::for_blocks(mask.size(), how, [&](std::size_t first, std::size_t count) {
     kernel(**table, mask.data() + first, first, count);
   });
-  if (const std::size_t rest = lanes % kLanesPerBlock; rest != 0) mask.back() &= (std::uint64_t{1} << rest) - 1;
+  if (const std::size_t rest = lanes % kLanesPerBlock; rest != 0)
+    mask.back() &= (std::uint64_t{1} << rest) - 1;
   return mask;
 }
 
@@ -82,15 +84,18 @@ Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan 
   return binary(&KernelTable::add, a, b, out, how);
 }
 
-Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how) {
+Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                      const Execution& how) {
   return binary(&KernelTable::subtract, a, b, out, how);
 }
 
-Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how) {
+Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                      const Execution& how) {
   return binary(&KernelTable::multiply, a, b, out, how);
 }
 
-Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how) {
+Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                    const Execution& how) {
   return binary(&KernelTable::divide, a, b, out, how);
 }
 
@@ -109,14 +114,15 @@ Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, c
   });
 }
 
-Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c, SampledSpectraSpan out,
-                          const Execution& how) {
+Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
+                          SampledSpectraSpan out, const Execution& how) {
   return element_wise<3>({a, b, c}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.multiply_add(out.data + at, a.data + at, b.data + at, c.data + at, n);
   });
 }
 
-Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out, const Execution& how) {
+Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
+                  const Execution& how) {
   return element_wise<2>({a, b}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.lerp(out.data + at, a.data + at, b.data + at, t, n);
   });
@@ -136,7 +142,8 @@ Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, c
   });
 }
 
-Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out, const Execution& how) {
+Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out,
+                   const Execution& how) {
   if (!(lowest <= highest)) {
     return make_error(ErrorCode::kBadArgument, "cannot limit samples to between {} and {}", lowest, highest);
   }
@@ -174,17 +181,19 @@ Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& how) 
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& how) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how, [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-    k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
-  });
+  return mask_of(a.lanes, how,
+                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                   k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+                 });
 }
 
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& how) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how, [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-    k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
-  });
+  return mask_of(a.lanes, how,
+                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                   k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+                 });
 }
 
 Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& how) {
@@ -192,10 +201,11 @@ Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const E
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(b.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how, [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-    const std::size_t at = first * bands * kLanesPerBlock;
-    k.equal_mask(mask, a.data + at, b.data + at, bands, count);
-  });
+  return mask_of(a.lanes, how,
+                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                   const std::size_t at = first * bands * kLanesPerBlock;
+                   k.equal_mask(mask, a.data + at, b.data + at, bands, count);
+                 });
 }
 
 Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& how) {

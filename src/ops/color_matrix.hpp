@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-
 #include <spectile/colorimetry.hpp>
 
 namespace spectile::color {

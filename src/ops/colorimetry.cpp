@@ -25,9 +25,11 @@ MeasuredSpectrum matching_function(const data::MatchingFunctions& observer, std:
 
 }  // namespace
 
-Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light, Observer observer) {
+Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light,
+                                        Observer observer) {
   const data::MatchingFunctions& table = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
-  const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar), matching_function(table, table.y_bar),
+  const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar),
+                                         matching_function(table, table.y_bar),
                                          matching_function(table, table.z_bar)};
   Projector projector;
   projector.bands_ = bands;
@@ -59,7 +61,8 @@ Result<Projector> Projector::emissive(const Bands& bands, Observer observer) {
   return from_light(bands, nullptr, observer);
 }
 
-Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light, Observer observer) {
+Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light,
+                                        Observer observer) {
   return from_light(bands, &light, observer);
 }
 
@@ -71,7 +74,8 @@ std::array<double, 3> Projector::white() const noexcept {
   return sum;
 }
 
-Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz, const Execution& how) {
+Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
+                     const Execution& how) {
   SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, xyz.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
@@ -87,7 +91,8 @@ Result<void> project(const Projector& projector, SampledSpectraView spectra, Col
   return {};
 }
 
-Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y, const Execution& how) {
+Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
+                       const Execution& how) {
   SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
@@ -97,7 +102,8 @@ Result<void> luminance(const Projector& projector, SampledSpectraView spectra, L
   const std::size_t bands = spectra.bands.count();
   tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands, count);
+    (*table)->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands,
+                           count);
   });
   return {};
 }

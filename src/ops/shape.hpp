@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-
 #include <spectile/sampled_spectra.hpp>
 
 #include "src/base/errors.hpp"
@@ -11,8 +10,8 @@ namespace spectile::shape {
 
 inline Result<void> same(const SampledSpectraView& a, const SampledSpectraView& b) {
   if (!(a.bands == b.bands)) {
-    return make_error(ErrorCode::kBandsMismatch, "one batch has bands {}, the other {}", a.bands.description(),
-                      b.bands.description());
+    return make_error(ErrorCode::kBandsMismatch, "one batch has bands {}, the other {}",
+                      a.bands.description(), b.bands.description());
   }
   if (a.lanes != b.lanes) {
     return make_error(ErrorCode::kSizeMismatch, "one batch has {} lanes, the other {}", a.lanes, b.lanes);
@@ -28,8 +27,8 @@ inline Result<void> same_lanes(std::size_t a, std::size_t b) {
 /// `what` says what the bands were expected by: "the projector".
 inline Result<void> bands_of(const char* what, const Bands& expected, const Bands& given) {
   if (expected == given) return {};
-  return make_error(ErrorCode::kBandsMismatch, "the spectra have bands {}, {} expects {}", given.description(), what,
-                    expected.description());
+  return make_error(ErrorCode::kBandsMismatch, "the spectra have bands {}, {} expects {}",
+                    given.description(), what, expected.description());
 }
 
 inline Result<void> aligned(const void* p) {

@@ -23,7 +23,8 @@ namespace {
 /// oneTBB keeps one worker less than the cores; more threads than that, where asked for, need a word to it.
 class Allowance {
  public:
-  explicit Allowance(int threads) : control_(tbb::global_control::max_allowed_parallelism, allowed(threads)) {}
+  explicit Allowance(int threads)
+      : control_(tbb::global_control::max_allowed_parallelism, allowed(threads)) {}
 
  private:
   static std::size_t allowed(int threads) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-
 #include <spectile/sampled_spectra.hpp>
 
 namespace spectile::tiles {
@@ -15,9 +14,9 @@ int thread_count(int requested);
 void for_blocks(std::size_t blocks, const Execution& how,
                 const std::function<void(std::size_t first, std::size_t count)>& work);
 
-/// Runs a pipeline of items: `produce(item)` in order, one at a time, false at the end; `transform(item)` in parallel;
-/// `consume(item)` in the order produced, one at a time. At most `items` are under way; item i is slot number i of
-/// 0..items-1, not shared by two that are under way at once. None may throw.
+/// Runs a pipeline of items: `produce(item)` in order, one at a time, false at the end; `transform(item)` in
+/// parallel; `consume(item)` in the order produced, one at a time. At most `items` are under way; item i is
+/// slot number i of 0..items-1, not shared by two that are under way at once. None may throw.
 void ordered_pipeline(std::size_t items, int threads, const std::function<bool(std::size_t slot)>& produce,
                       const std::function<void(std::size_t slot)>& transform,
                       const std::function<void(std::size_t slot)>& consume);

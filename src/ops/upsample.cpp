@@ -1,11 +1,9 @@
 // Smits upsampling of batches, from linear sRGB and from XYZ.
-#include <spectile/upsample.hpp>
-
 #include <algorithm>
 #include <limits>
-
 #include <spectile/colorimetry.hpp>
 #include <spectile/measured_spectrum.hpp>
+#include <spectile/upsample.hpp>
 
 #include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -46,7 +44,8 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
   const std::size_t at = first * kLanesPerBlock;
   const float* const planes[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
   const std::size_t bands = upsampler.bands().count();
-  table.smits_blocks(spectra + at * bands, planes, upsampler.table(), upsampler.lowest(), bands, count, stream);
+  table.smits_blocks(spectra + at * bands, planes, upsampler.table(), upsampler.lowest(), bands, count,
+                     stream);
 }
 
 Result<void> check(const Upsampler& upsampler, const ColorView& in, const SampledSpectraSpan& spectra) {
@@ -73,16 +72,20 @@ Result<Method> parse_method(std::string_view name) {
 Result<Quantity> parse_quantity(std::string_view name) {
   if (name == "reflectance") return Quantity::kReflectance;
   if (name == "illuminant") return Quantity::kIlluminant;
-  return make_error(ErrorCode::kUnknownName, "quantity \"{}\" is unknown; there are reflectance, illuminant", name);
+  return make_error(ErrorCode::kUnknownName, "quantity \"{}\" is unknown; there are reflectance, illuminant",
+                    name);
 }
 
-std::string_view to_string(Method method) { return method == Method::kSmits ? "smits" : "smits1999"; }
+std::string_view to_string(Method method) {
+  return method == Method::kSmits ? "smits" : "smits1999";
+}
 
 std::string_view to_string(Quantity quantity) {
   return quantity == Quantity::kReflectance ? "reflectance" : "illuminant";
 }
 
-Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Bands& bands, NegativeSamples negative) {
+Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Bands& bands,
+                                    NegativeSamples negative) {
   const data::SmitsData& data = data_for(method, quantity);
   const bool times_light = method == Method::kSmits1999 && quantity == Quantity::kIlluminant;
   const MeasuredSpectrum light = d65_of_luminance_one();
@@ -110,8 +113,8 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   return out;
 }
 
-Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra, Stores stores,
-                           const Execution& how) {
+Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
+                           Stores stores, const Execution& how) {
   SPECTILE_TRY(check(upsampler, rgb, spectra));
   const auto table = dispatch::active();
   if (!table) return table.error();
@@ -122,8 +125,8 @@ Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpe
   return {};
 }
 
-Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra, Stores stores,
-                          const Execution& how) {
+Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
+                          Stores stores, const Execution& how) {
   SPECTILE_TRY(check(upsampler, xyz, spectra));
   const auto table = dispatch::active();
   if (!table) return table.error();
@@ -139,8 +142,8 @@ Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpec
       const std::size_t at = block * kLanesPerBlock;
       const float* const in[3] = {xyz.c[0] + at, xyz.c[1] + at, xyz.c[2] + at};
       (*table)->transform3(planes, in, matrix.data(), kLanesPerBlock);
-      (*table)->smits_blocks(spectra.data + at * bands, source, upsampler.table(), upsampler.lowest(), bands, 1,
-                             stream);
+      (*table)->smits_blocks(spectra.data + at * bands, source, upsampler.table(), upsampler.lowest(), bands,
+                             1, stream);
     }
   });
   return {};

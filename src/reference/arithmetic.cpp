@@ -93,7 +93,8 @@ void mask_all(std::uint64_t* mask, std::size_t bands, std::size_t blocks, Test t
     mask[block] = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       bool all = true;
-      for (std::size_t band = 0; band < bands; ++band) all = all && test((block * bands + band) * kLanes + lane);
+      for (std::size_t band = 0; band < bands; ++band)
+        all = all && test((block * bands + band) * kLanes + lane);
       mask[block] |= static_cast<std::uint64_t>(all) << lane;
     }
   }

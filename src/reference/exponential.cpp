@@ -16,7 +16,8 @@ double exp2_double(double t) {
   const double x = (t - (shifted - kRoundMagic)) * kLn2;
   double p = kExpSeries[kExpTerms - 1];
   for (std::size_t k = kExpTerms - 1; k-- > 0;) p = p * x + kExpSeries[k];
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) + (std::bit_cast<std::uint64_t>(shifted) << 52));
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) +
+                               (std::bit_cast<std::uint64_t>(shifted) << 52));
 }
 
 double log2_double(double v) {

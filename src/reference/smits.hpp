@@ -16,8 +16,8 @@ struct SmitsMixtureOf {
 };
 using SmitsMixture = SmitsMixtureOf<float>;
 
-/// The mixture for a colour: what all three share is white, what two share is their secondary, the rest a primary.
-/// Source: Smits, An RGB-to-Spectrum Conversion for Reflectances, J. Graphics Tools 4(4), 1999.
+/// The mixture for a colour: what all three share is white, what two share is their secondary, the rest a
+/// primary. Source: Smits, An RGB-to-Spectrum Conversion for Reflectances, J. Graphics Tools 4(4), 1999.
 template <class T>
 SmitsMixtureOf<T> smits_mixture(T r, T g, T b) {
   if (g < r) {

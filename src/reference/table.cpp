@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/half.hpp"
 #include "src/reference/smits.hpp"
@@ -66,7 +65,8 @@ void smits_blocks(float* dst, const float* const rgb[3], const float* table, flo
   for (std::size_t i = 0; i < blocks * kLanes; ++i) {
     const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
     for (std::size_t band = 0; band < bands; ++band) {
-      dst[((i / kLanes) * bands + band) * kLanes + i % kLanes] = smits_sample(m, table + band * kSmitsRow, lowest);
+      dst[((i / kLanes) * bands + band) * kLanes + i % kLanes] =
+          smits_sample(m, table + band * kSmitsRow, lowest);
     }
   }
 }

@@ -1,4 +1,5 @@
-// The oracle: the same mathematics in double, straight from the definitions and independent of the library's own way.
+// The oracle: the same mathematics in double, straight from the definitions and independent of the library's
+// own way.
 #include "src/reference/oracle/oracle.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace spectile::oracle {
 namespace {
 
 /// Value of a function tabulated at even steps, linear in between; `beyond` decides what lies outside.
-double at_even(double first_nm, double step_nm, std::span<const double> values, double lambda_nm, bool zero_beyond) {
+double at_even(double first_nm, double step_nm, std::span<const double> values, double lambda_nm,
+               bool zero_beyond) {
   const double place = (lambda_nm - first_nm) / step_nm;
   const auto last = static_cast<double>(values.size() - 1);
   if (place < 0) return zero_beyond ? 0.0 : values.front();
@@ -93,7 +95,8 @@ std::array<std::array<double, 3>, 3> srgb_matrix() {
 
 double average(std::span<const double> wavelengths_nm, std::span<const double> values, double lower_nm,
                double upper_nm) {
-  return (antiderivative(wavelengths_nm, values, upper_nm) - antiderivative(wavelengths_nm, values, lower_nm)) /
+  return (antiderivative(wavelengths_nm, values, upper_nm) -
+          antiderivative(wavelengths_nm, values, lower_nm)) /
          (upper_nm - lower_nm);
 }
 
@@ -132,10 +135,11 @@ std::vector<std::array<double, 7>> smits_basis(Method method, Quantity quantity,
   return out;
 }
 
-std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& basis, const std::array<double, 3>& rgb,
-                                   double lowest) {
-  // From the definition: sort the components; what all share is white, what two share their secondary, the rest a
-  // primary. Bases: white, cyan, magenta, yellow, red, green, blue; the secondary opposite to component i is 1 + i.
+std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& basis,
+                                   const std::array<double, 3>& rgb, double lowest) {
+  // From the definition: sort the components; what all share is white, what two share their secondary, the
+  // rest a primary. Bases: white, cyan, magenta, yellow, red, green, blue; the secondary opposite to
+  // component i is 1 + i.
   std::array<std::size_t, 3> order = {0, 1, 2};
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rgb[a] < rgb[b]; });
   const double low = rgb[order[0]];
@@ -143,8 +147,8 @@ std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& bas
   const double high = rgb[order[2]];
   std::vector<double> out(basis.size());
   for (std::size_t b = 0; b < basis.size(); ++b) {
-    const double sample =
-        low * basis[b][0] + (middle - low) * basis[b][1 + order[0]] + (high - middle) * basis[b][4 + order[2]];
+    const double sample = low * basis[b][0] + (middle - low) * basis[b][1 + order[0]] +
+                          (high - middle) * basis[b][4 + order[2]];
     out[b] = std::max(lowest, sample);
   }
   return out;
@@ -170,7 +174,8 @@ std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observ
   return weights;
 }
 
-std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights, std::span<const double> spectrum) {
+std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights,
+                              std::span<const double> spectrum) {
   std::array<double, 3> xyz{};
   for (std::size_t b = 0; b < weights.size(); ++b) {
     for (std::size_t k = 0; k < 3; ++k) xyz[k] += weights[b][k] * spectrum[b];
@@ -191,7 +196,8 @@ std::array<double, 3> xyz_to_srgb(const std::array<double, 3>& xyz) {
   // Cramer's rule.
   static const auto m = srgb_matrix();
   const auto det = [](const std::array<std::array<double, 3>, 3>& a) {
-    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+           a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
   };
   std::array<double, 3> rgb{};

@@ -1,18 +1,18 @@
-// The oracle: the same mathematics in double, straight from the definitions and independent of the library's own way.
+// The oracle: the same mathematics in double, straight from the definitions and independent of the library's
+// own way.
 #pragma once
 
 #include <array>
 #include <span>
-#include <vector>
-
 #include <spectile/bands.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/upsample.hpp>
+#include <vector>
 
 namespace spectile::oracle {
 
-/// Average over [lower, upper] of the piecewise-linear function through sorted samples, constant beyond both ends, as
-/// the difference of antiderivatives.
+/// Average over [lower, upper] of the piecewise-linear function through sorted samples, constant beyond both
+/// ends, as the difference of antiderivatives.
 double average(std::span<const double> wavelengths_nm, std::span<const double> values, double lower_nm,
                double upper_nm);
 
@@ -20,15 +20,16 @@ double average(std::span<const double> wavelengths_nm, std::span<const double> v
 std::vector<std::array<double, 7>> smits_basis(Method method, Quantity quantity, const Bands& bands);
 
 /// The spectrum of one linear sRGB colour; samples below `lowest` become it.
-std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& basis, const std::array<double, 3>& rgb,
-                                   double lowest);
+std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& basis,
+                                   const std::array<double, 3>& rgb, double lowest);
 
 /// XYZ weights of each band by summing at 0.01 nm: [bands][3]. `light` null for emitted light.
 std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observer observer,
                                                       const MeasuredSpectrum* light);
 
 /// XYZ of a spectrum.
-std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights, std::span<const double> spectrum);
+std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights,
+                              std::span<const double> spectrum);
 
 /// Linear sRGB of XYZ, and back, from the four chromaticities of IEC 61966-2-1:1999.
 std::array<double, 3> xyz_to_srgb(const std::array<double, 3>& xyz);
