@@ -14,6 +14,7 @@ class MemoryStream : public Imf::OStream {
   MemoryStream() : OStream("memory") {}
   void write(const char data[], int count) override {
     const auto bytes = static_cast<std::size_t>(count);
+    if (bytes == 0) return;
     bytes_.resize(std::max(bytes_.size(), position_ + bytes));
     std::memcpy(bytes_.data() + position_, data, bytes);
     position_ += bytes;

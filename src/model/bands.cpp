@@ -50,14 +50,13 @@ Bands::Bands() {
 Result<Bands> Bands::uniform(double first_nm, double last_nm, double step_nm) {
   if (!std::isfinite(first_nm) || !std::isfinite(last_nm) || !std::isfinite(step_nm) || first_nm <= 0 ||
       step_nm <= 0 || last_nm <= first_nm) {
-    return make_error(
-        ErrorCode::kBadArgument,
-        "bands from {} to {} nm by {} nm: edges must be positive and ascending, the step positive", first_nm,
-        last_nm, step_nm);
+    return make_error(ErrorCode::kBadArgument,
+                      "from {} to {} nm by {} nm: edges must be positive and ascending, the step positive",
+                      first_nm, last_nm, step_nm);
   }
   const double steps = (last_nm - first_nm) / step_nm;
   if (steps > static_cast<double>(kMaxBands) + 0.5) {
-    return make_error(ErrorCode::kBadArgument, "bands from {} to {} nm by {} nm are more than {}", first_nm,
+    return make_error(ErrorCode::kBadArgument, "from {} to {} nm by {} nm are more than {} bands", first_nm,
                       last_nm, step_nm, kMaxBands);
   }
   const double whole = std::round(steps);
@@ -111,12 +110,13 @@ Result<Bands> Bands::parse(std::string_view text) {
     }
     numbers.push_back(*number);
   }
-  if (!range) return from_centres(numbers);
-  if (numbers.size() != 3) {
+  if (range && numbers.size() != 3) {
     return make_error(ErrorCode::kBadArgument, "bands \"{}\" are not FIRST:LAST:STEP in nm, as in 400:700:5",
                       text);
   }
-  return uniform(numbers[0], numbers[1], numbers[2]);
+  auto bands = range ? uniform(numbers[0], numbers[1], numbers[2]) : from_centres(numbers);
+  if (!bands) return make_error(bands.error().code, "bands \"{}\": {}", text, bands.error().message);
+  return bands;
 }
 
 std::string Bands::description() const {
