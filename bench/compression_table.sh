@@ -22,5 +22,5 @@ none=$(awk '$1 == "none" { print $3; exit }' "$work/all")
 for method in $methods; do
   awk -v m="$method" '$1 == m' "$work/all" | sort -k2 -g | awk -v none="$none" '
     { line[NR] = $0 }
-    END { split(line[int((NR + 1) / 2)], f, " "); printf "| `%s` | %.2f | %.1f | %.0f % |\n", f[1], f[4] * f[5] / f[2] / 1e6, f[3] / f[4] / f[5], 100 * f[3] / none }'
+    END { split(line[int((NR + 1) / 2)], f, " "); printf "| `%s` | %.2f | %.1f | %.0f %% |\n", f[1], f[4] * f[5] / f[2] / 1e6, f[3] / f[4] / f[5], 100 * f[3] / none }'
 done

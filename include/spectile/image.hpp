@@ -30,7 +30,7 @@ struct Compression {
   CompressionKind kind = CompressionKind::kZip;
   /// zip, zips: zlib's, 1 (fast) to 9 (small); dwaa, dwab: 1 to 500, loss that grows with it. -1 for
   /// OpenEXR's default.
-  int level = 2;
+  int level = 1;
 
   /// Reads "NAME" or "NAME:LEVEL". Errors: kUnknownName, kBadArgument.
   static Result<Compression> parse(std::string_view text);
