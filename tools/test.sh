@@ -8,7 +8,7 @@ cmake --build build
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 status=0
-ctest --test-dir build --output-on-failure --no-tests=error "$@" | tee "$log" || status=$?
+ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@" | tee "$log" || status=$?
 # One closing line in plain words; ctest's own counts skipped tests among those passed.
 total=$(sed -nE 's/.*tests failed out of ([0-9]+).*/\1/p' "$log" | tail -1)
 failed=$(sed -nE 's/.*, ([0-9]+) tests failed out of.*/\1/p' "$log" | tail -1)
