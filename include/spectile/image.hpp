@@ -37,7 +37,7 @@ struct Compression {
   std::string description() const;
 };
 
-/// What to do with pixels that hold NaN or infinities.
+/// What to do with pixels that hold NaN, infinities, or components beyond 2^124, whose spectra could overflow.
 enum class NonFinite {
   kStop,  ///< an error that names the first of them and their number
   kZero,  ///< the whole pixel becomes black, and is counted

@@ -50,7 +50,7 @@ class ProgressBar {
     fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {:.0f} s left", label_, "", full, "",
                kWidth - full, 100 * done, speed_text(progress.pixels_done, seconds),
                seconds / done * (1 - done));
-    std::fflush(stderr);
+    static_cast<void>(std::fflush(stderr));
     return true;
   }
 

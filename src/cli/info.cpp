@@ -1,6 +1,7 @@
 // spectile info: what a file holds.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -91,10 +92,14 @@ void print_pixel(const ImageInfo& info, const std::string& where) {
 
 std::optional<std::array<int, 2>> parse_pixel(const std::string& text) {
   std::array<int, 2> at{};
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%d,%d%n", &at[0], &at[1], &used) != 2 ||
-      static_cast<std::size_t>(used) != text.size()) {
-    return std::nullopt;
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  const char* const ends[2] = {text.data() + comma, text.data() + text.size()};
+  const char* begin = text.data();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto [end, error] = std::from_chars(begin, ends[i], at[i]);
+    if (error != std::errc{} || end != ends[i]) return std::nullopt;
+    begin = ends[i] + (i == 0 ? 1 : 0);
   }
   return at;
 }

@@ -42,11 +42,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   // A file beyond the shell's size limit is then an error like a full disk, not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
+  static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "spectile: %s\n", error.what());
+    fmt::print(stderr, "spectile: {}\n", error.what());
     return spectile::cli::kBadInput;
   }
 }

@@ -248,10 +248,11 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   for (int i = 0; i < encoder.pipeline.channel_count; ++i) {
     exr_coding_channel_info_t& channel = encoder.pipeline.channels[i];
     channel.encode_from_ptr = &kUnused;
-    channel.user_bytes_per_element = channel.bytes_per_element;
+    const int bytes = static_cast<unsigned char>(channel.bytes_per_element);
+    channel.user_bytes_per_element = static_cast<std::int16_t>(bytes);
     channel.user_data_type = channel.data_type;
-    channel.user_pixel_stride = channel.bytes_per_element;
-    channel.user_line_stride = channel.bytes_per_element * channel.width;
+    channel.user_pixel_stride = bytes;
+    channel.user_line_stride = bytes * channel.width;
   }
   if (encoder.pipeline.convert_and_pack_fn == nullptr) {
     code = exr_encoding_choose_default_routines(context_, 0, &encoder.pipeline);
