@@ -64,7 +64,8 @@ bool set_plain(const Imf::Attribute& from, const Place& at, exr_result_t& result
   if (typed == nullptr) return false;
   static_assert(sizeof(typed->value()) == sizeof(Plain));
   Plain plain;
-  std::memcpy(static_cast<void*>(&plain), &typed->value(), sizeof(Plain));
+  // Both are plain numbers in the same order, though the C++ classes have constructors of their own.
+  std::memcpy(static_cast<void*>(&plain), static_cast<const void*>(&typed->value()), sizeof(Plain));
   result = set(at.to, at.part, at.name, &plain);
   return true;
 }

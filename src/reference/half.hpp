@@ -23,7 +23,7 @@ constexpr float float_from_half(std::uint16_t h) noexcept {
 
 /// Nearest half, ties to even; beyond the range infinity; NaN quiet, with the top of its payload.
 constexpr std::uint16_t half_from_float(float f) noexcept {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(f);
+  const auto bits = std::bit_cast<std::uint32_t>(f);
   const auto sign = static_cast<std::uint16_t>((bits >> 16) & 0x8000U);
   const std::uint32_t magnitude = bits & 0x7FFFFFFFU;
   std::uint32_t half = 0;
