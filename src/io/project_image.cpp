@@ -60,7 +60,7 @@ class ProjectJob : public io::LineJob {
     for (std::size_t i = color_names_.size(); i < channels.size(); ++i) {
       const auto& planes = source_.planes();
       for (std::size_t p = source_.bands().count(); p < planes.size(); ++p) {
-        if (planes[p].name == channels[i].name) passing_.push_back({i, p});
+        if (planes[p].name == channels[i].name) passing_.emplace_back(i, p);
       }
     }
     for (std::size_t i = 0; i < slots; ++i) {
