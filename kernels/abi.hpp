@@ -4,9 +4,9 @@
 //  - Float arrays are 64-byte aligned. A count `n` of floats is a multiple of kLanes. A batch of spectra is
 //    [blocks][bands][kLanes].
 //  - `dst` may be the same array as a source, never a shifted overlap of it.
-//  - Formulas are evaluated as written: one rounding per operation, no contraction, sums in ascending order
-//  of the
-//    band. Therefore every table gives the same bits.
+//  - Formulas are evaluated as written: one rounding per operation, no contraction. Sums over bands are taken
+//    in ascending order within runs of kSumRun bands, and the runs' sums are added in ascending order, each sum
+//    starting from 0. Therefore every table gives the same bits.
 //  - NaN goes through arithmetic as IEEE 754 says (its payload is not specified).
 #pragma once
 
@@ -17,6 +17,9 @@ namespace spectile::kernels {
 
 /// Lanes of a block, the unit in which every kernel works.
 inline constexpr std::size_t kLanes = 64;
+
+/// Bands in a run of a sum: the error then grows with kSumRun + bands / kSumRun, not with the bands.
+inline constexpr std::size_t kSumRun = 8;
 
 /// Floats of one band's row in a Smits table: white, cyan, magenta, yellow, red, green, blue, 0.
 inline constexpr std::size_t kSmitsRow = 8;
@@ -30,6 +33,28 @@ struct RgbScan {
   std::uint64_t negative = 0;   ///< any component below 0
   std::uint64_t over_one = 0;   ///< any component above 1
   float maximum = 0;            ///< largest component above 0; NaN passed over
+};
+
+/// Floats of a sigmoid's row: for each of red, green, blue four times its weight times lambda^2, lambda, 1; then
+/// lambda itself, the white's sample and a 0.
+inline constexpr std::size_t kSigmoidRow = 12;
+inline constexpr std::size_t kSigmoidLambda = 9;
+inline constexpr std::size_t kSigmoidWhite = 10;
+
+/// Floats of a node of the start table: three coefficients; for each, its first derivatives along the three
+/// axes, its pure second ones (halved) and its mixed ones (01, 02, 12); two zeros.
+inline constexpr std::size_t kSigmoidNode = 32;
+
+/// A coefficient at which the sigmoid is exactly 1, and its negative 0.
+inline constexpr float kSigmoidFar = 0x1p40F;
+
+/// What solving for sigmoid coefficients needs. Lambda is (wavelength - 550 nm) / 150 nm.
+struct SigmoidTable {
+  std::size_t bands = 0;
+  const float* rows = nullptr;     ///< [bands][kSigmoidRow]
+  const float* weights = nullptr;  ///< [bands][4]: RGB weight, 0
+  const float* nodes = nullptr;    ///< [3][steps][steps][steps][kSigmoidNode]
+  std::int32_t steps = 0;
 };
 
 /// One instruction set's kernels.
@@ -98,6 +123,42 @@ struct KernelTable {
   /// the same in halves: limited to kHalfMax from above and rounded to nearest even
   void (*smits_rows_half)(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                           std::size_t bands, std::size_t n) noexcept;
+
+  /// A mixture of the table's three rows: dst_k = ((w0 * white_k) + (w1 * secondary_k)) + (w2 * primary_k);
+  /// table [3][kSmitsRow], 32-byte aligned; dst may be rgb
+  void (*smits_fold)(float* const dst[3], const float* const rgb[3], const float* table,
+                     std::size_t n) noexcept;
+
+  // Sigmoid spectra. These alone use fused multiply-adds, written below as fma: one rounding, the same bits
+  // everywhere. With x = fma(fma(c0, lambda, c1), lambda, c2) and r half the inverse square root of
+  // fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24):
+  // sample = fma(x, r, 0.5) limited to [0, 1], then times the band's white, then times the lane's scale, each
+  // where there is one. Source: Jakob, Hanika, A Low-Dimensional Function Space for Efficient Spectral
+  // Upsampling, Computer Graphics Forum 38(2), 2019.
+  /// coefficients for which the weights' sums over the samples are rgb. Bit i of unsolved[i / kLanes]: no
+  /// coefficients come within 1e-5 of it; it keeps those that came nearest. Greys give c0 = c1 = 0; 0, 0, 0
+  /// and 1, 1, 1 give exactly 0 and 1; a component that is not finite gives NaN. n a multiple of kLanes.
+  void (*sigmoid_solve)(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
+                        std::uint64_t* unsolved, std::size_t n) noexcept;
+  /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its white
+  void (*sigmoid_blocks)(float* dst, const float* const c[3], const float* scale, const float* rows,
+                         bool white, std::size_t bands, std::size_t blocks, bool stream) noexcept;
+  /// out[band] takes n floats, at any address, for any n; c, scale readable up to n rounded up to kLanes
+  void (*sigmoid_rows_float)(void* const* out, const float* const c[3], const float* scale, const float* rows,
+                             bool white, std::size_t bands, std::size_t n) noexcept;
+  /// the same in halves: limited to kHalfMax from above and rounded to nearest even
+  void (*sigmoid_rows_half)(void* const* out, const float* const c[3], const float* scale, const float* rows,
+                            bool white, std::size_t bands, std::size_t n) noexcept;
+  /// dst_k = sum over bands of weights[band][k] * sample; weights [bands][4]
+  void (*sigmoid_project)(float* const dst[3], const float* const c[3], const float* scale, const float* rows,
+                          bool white, const float* weights, std::size_t bands, std::size_t n) noexcept;
+
+  // Gamut.
+  /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance
+  /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others and
+  /// NaN stay as they are. Bit i of moved[i / kLanes]: it was outside.
+  void (*limit_gamut)(float* const rgb[3], const float weights[3], float lowest, float highest,
+                      std::uint64_t* moved, std::size_t n) noexcept;
 
   // Conversion. Sources and targets of any alignment, n a multiple of kLanes.
   void (*half_to_float)(float* dst, const std::uint16_t* src,

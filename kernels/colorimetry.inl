@@ -6,6 +6,14 @@
 namespace spectile::kernels {
 namespace {
 
+/// Calls run(first, end) for each run of a sum over bands.
+template <class Run>
+inline void for_runs(std::size_t bands, Run run) noexcept {
+  for (std::size_t first = 0; first < bands; first += kSumRun) {
+    run(first, bands - first < kSumRun ? bands : first + kSumRun);
+  }
+}
+
 void weighted_sum(float* y, const float* spectra, const float* weights, std::size_t bands,
                   std::size_t blocks) noexcept {
   constexpr std::size_t kVectors = kLanes / kWidth < 8 ? kLanes / kWidth : 8;
@@ -13,11 +21,16 @@ void weighted_sum(float* y, const float* spectra, const float* weights, std::siz
     for (std::size_t lane = 0; lane < kLanes; lane += kVectors * kWidth) {
       F32 sum[kVectors];
       for (auto& s : sum) s = F32(0.0F);
-      for (std::size_t band = 0; band < bands; ++band) {
-        const F32 w(weights[band]);
-        const float* in = spectra + band * kLanes + lane;
-        for (std::size_t j = 0; j < kVectors; ++j) sum[j] = sum[j] + w * load(in + j * kWidth);
-      }
+      for_runs(bands, [&](std::size_t first, std::size_t end) {
+        F32 run[kVectors];
+        for (auto& s : run) s = F32(0.0F);
+        for (std::size_t band = first; band < end; ++band) {
+          const F32 w(weights[band]);
+          const float* in = spectra + band * kLanes + lane;
+          for (std::size_t j = 0; j < kVectors; ++j) run[j] = run[j] + w * load(in + j * kWidth);
+        }
+        for (std::size_t j = 0; j < kVectors; ++j) sum[j] = sum[j] + run[j];
+      });
       for (std::size_t j = 0; j < kVectors; ++j) store(y + block * kLanes + lane + j * kWidth, sum[j]);
     }
   }
@@ -25,29 +38,33 @@ void weighted_sum(float* y, const float* spectra, const float* weights, std::siz
 
 void project(float* x, float* y, float* z, const float* spectra, const float* weights, std::size_t bands,
              std::size_t blocks) noexcept {
+  float* const out[3] = {x, y, z};
   for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
     for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
-      F32 sum_x[kGroup];
-      F32 sum_y[kGroup];
-      F32 sum_z[kGroup];
-      for (std::size_t j = 0; j < kGroup; ++j) sum_x[j] = sum_y[j] = sum_z[j] = F32(0.0F);
-      for (std::size_t band = 0; band < bands; ++band) {
-        const F32 wx(weights[4 * band]);
-        const F32 wy(weights[4 * band + 1]);
-        const F32 wz(weights[4 * band + 2]);
-        const float* in = spectra + band * kLanes + lane;
-        for (std::size_t j = 0; j < kGroup; ++j) {
-          const F32 s = load(in + j * kWidth);
-          sum_x[j] = sum_x[j] + wx * s;
-          sum_y[j] = sum_y[j] + wy * s;
-          sum_z[j] = sum_z[j] + wz * s;
-        }
+      F32 sum[3][kGroup];
+      for (auto& row : sum) {
+        for (auto& s : row) s = F32(0.0F);
       }
+      for_runs(bands, [&](std::size_t first, std::size_t end) {
+        F32 run[3][kGroup];
+        for (auto& row : run) {
+          for (auto& s : row) s = F32(0.0F);
+        }
+        for (std::size_t band = first; band < end; ++band) {
+          const F32 w[3] = {F32(weights[4 * band]), F32(weights[4 * band + 1]), F32(weights[4 * band + 2])};
+          const float* in = spectra + band * kLanes + lane;
+          for (std::size_t j = 0; j < kGroup; ++j) {
+            const F32 s = load(in + j * kWidth);
+            for (std::size_t k = 0; k < 3; ++k) run[k][j] = run[k][j] + w[k] * s;
+          }
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          for (std::size_t j = 0; j < kGroup; ++j) sum[k][j] = sum[k][j] + run[k][j];
+        }
+      });
       const std::size_t at = block * kLanes + lane;
-      for (std::size_t j = 0; j < kGroup; ++j) {
-        store(x + at + j * kWidth, sum_x[j]);
-        store(y + at + j * kWidth, sum_y[j]);
-        store(z + at + j * kWidth, sum_z[j]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < kGroup; ++j) store(out[k] + at + j * kWidth, sum[k][j]);
       }
     }
   }

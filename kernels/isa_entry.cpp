@@ -3,7 +3,9 @@
 #include "kernels/colorimetry.inl"
 #include "kernels/convert.inl"
 #include "kernels/exponential.inl"
+#include "kernels/gamut.inl"
 #include "kernels/upsample.inl"
+#include "kernels/sigmoid.inl"
 
 #if defined(SPECTILE_KERNEL_AVX512)
 #define SPECTILE_KERNEL_NAME avx512
@@ -50,6 +52,13 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .smits_blocks = smits_blocks,
     .smits_rows_float = smits_rows_float,
     .smits_rows_half = smits_rows_half,
+    .smits_fold = smits_fold,
+    .sigmoid_solve = sigmoid_solve,
+    .sigmoid_blocks = sigmoid_blocks,
+    .sigmoid_rows_float = sigmoid_rows_float,
+    .sigmoid_rows_half = sigmoid_rows_half,
+    .sigmoid_project = sigmoid_project,
+    .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,

@@ -317,5 +317,77 @@ inline F32 narrow(F64 low, F64 high) {
 }
 #endif
 
+// --- Fused multiply-add: a * b + c, rounded once, as IEEE 754 defines it
+// -----------------------------------------------------------------------------------------------
+
+#if defined(SPECTILE_KERNEL_AVX512)
+inline F32 fused(F32 a, F32 b, F32 c) {
+  return _mm512_fmadd_ps(a, b, c);
+}
+inline F32 fused_minus(F32 a, F32 b, F32 c) {
+  return _mm512_fnmadd_ps(a, b, c);
+}
+#elif defined(SPECTILE_KERNEL_AVX2)
+inline F32 fused(F32 a, F32 b, F32 c) {
+  return _mm256_fmadd_ps(a, b, c);
+}
+inline F32 fused_minus(F32 a, F32 b, F32 c) {
+  return _mm256_fnmadd_ps(a, b, c);
+}
+#elif defined(SPECTILE_KERNEL_NEON)
+inline F32 fused(F32 a, F32 b, F32 c) {
+  return vfmaq_f32(c, a, b);
+}
+inline F32 fused_minus(F32 a, F32 b, F32 c) {
+  return vfmsq_f32(c, a, b);
+}
+#else
+// SSE4.2 has no such instruction. In double the product is exact; the sum is rounded to odd, so that rounding
+// it to float is as rounding the exact value. Source: Boldo, Melquiond, Emulation of FMA and correctly rounded
+// sums, IEEE Transactions on Computers 57(4), 2008.
+inline __m128d sum_to_odd(__m128d product, __m128d c) {
+  const __m128d sum = _mm_add_pd(product, c);
+  const __m128d part = _mm_sub_pd(sum, product);
+  const __m128d error = _mm_add_pd(_mm_sub_pd(product, _mm_sub_pd(sum, part)), _mm_sub_pd(c, part));
+  const __m128d zero = _mm_setzero_pd();
+  const __m128i inexact = _mm_castpd_si128(_mm_or_pd(_mm_cmplt_pd(error, zero), _mm_cmpgt_pd(error, zero)));
+  const __m128i bits = _mm_castpd_si128(sum);
+  const __m128i even = _mm_cmpeq_epi64(_mm_and_si128(bits, _mm_set1_epi64x(1)), _mm_setzero_si128());
+  // One place away from zero where the error points there, else one towards it: even becomes odd either way.
+  const __m128i opposite = _mm_cmpgt_epi64(_mm_setzero_si128(), _mm_xor_si128(bits, _mm_castpd_si128(error)));
+  const __m128i step = _mm_or_si128(opposite, _mm_set1_epi64x(1));
+  return _mm_castsi128_pd(_mm_add_epi64(bits, _mm_and_si128(_mm_and_si128(inexact, even), step)));
+}
+inline F32 fused(F32 a, F32 b, F32 c) {
+  const __m128d low = sum_to_odd(_mm_mul_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(b)), _mm_cvtps_pd(c));
+  const __m128 ah = _mm_movehl_ps(a, a);
+  const __m128 bh = _mm_movehl_ps(b, b);
+  const __m128 ch = _mm_movehl_ps(c, c);
+  const __m128d high = sum_to_odd(_mm_mul_pd(_mm_cvtps_pd(ah), _mm_cvtps_pd(bh)), _mm_cvtps_pd(ch));
+  return _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
+inline F32 fused_minus(F32 a, F32 b, F32 c) {
+  return fused(-a, b, c);
+}
+#endif
+
+// --- Table look-up
+// -----------------------------------------------------------------------------------------------
+
+/// base[index] in each lane.
+inline F32 gather(const float* base, I32 index) {
+#if defined(SPECTILE_KERNEL_AVX512)
+  return _mm512_i32gather_ps(index, base, 4);
+#elif defined(SPECTILE_KERNEL_AVX2)
+  return _mm256_i32gather_ps(base, index, 4);
+#else
+  alignas(64) std::int32_t at[kWidth];
+  alignas(64) float out[kWidth];
+  index.store_aligned(at);
+  for (std::size_t i = 0; i < kWidth; ++i) out[i] = base[at[i]];
+  return F32::load_aligned(out);
+#endif
+}
+
 }  // namespace
 }  // namespace spectile::kernels

@@ -107,6 +107,18 @@ inline void smits_rows(void* const* rows, const float* const rgb[3], const float
   }
 }
 
+void smits_fold(float* const dst[3], const float* const rgb[3], const float* table, std::size_t n) noexcept {
+  const Row rows[3] = {load_row(table), load_row(table + kSmitsRow), load_row(table + 2 * kSmitsRow)};
+  const F32 white[3] = {F32(table[0]), F32(table[kSmitsRow]), F32(table[2 * kSmitsRow])};
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const Mixture m = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(dst[k] + i, (m.white * white[k] + m.second * secondary(rows[k], m.second_index)) +
+                            m.first * primary(rows[k], m.first_index));
+    }
+  }
+}
+
 void smits_rows_float(void* const* rows, const float* const rgb[3], const float* table, float lowest,
                       std::size_t bands, std::size_t n) noexcept {
   smits_rows<float>(rows, rgb, table, lowest, bands, n);

@@ -6,6 +6,7 @@
 #include <spectile/bands.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/result.hpp>
+#include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
 #include <vector>
 
@@ -66,9 +67,6 @@ Result<void> project(const Projector& projector, SampledSpectraView spectra, Col
 /// Shapes, numbers, errors as for project().
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
                        const Execution& how = {});
-
-/// A 3 x 3 matrix, row by row.
-using Matrix3 = std::array<double, 9>;
 
 /// Linear sRGB to CIE XYZ (1931). White assumed: D65 at chromaticity (0.3127, 0.3290), so RGB 1, 1, 1 is
 /// XYZ 0.9505, 1, 1.0891; no chromatic adaptation. Source: primaries and white of IEC 61966-2-1:1999.

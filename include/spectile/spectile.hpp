@@ -3,10 +3,12 @@
 
 #include <spectile/arithmetic.hpp>
 #include <spectile/bands.hpp>
+#include <spectile/color_difference.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/image.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/result.hpp>
+#include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
 #include <spectile/upsample.hpp>

@@ -27,11 +27,32 @@ struct SmitsData {
   std::span<const double> basis[7];  // white, cyan, magenta, yellow, red, green, blue
 };
 
+/// Three basis spectra that sum to 1. Units: nm.
+struct PrimaryDecomposition {
+  std::span<const double> wavelengths_nm;
+  std::span<const double> primaries[3];  // red, green, blue
+};
+
+/// Seven basis spectra over the default bands (400:700:5), for sRGB under D65 and the 2 degree observer:
+/// [60][7], white, cyan, magenta, yellow, red, green, blue.
+using BasisRows = std::span<const double[7]>;
+
+/// Coefficients of sigmoids at the nodes of a grid of sRGB colours: [3][steps][steps][steps][3].
+struct SigmoidStart {
+  int steps;
+  std::span<const double> nodes;
+};
+
 extern const MatchingFunctions kCie1931;
 extern const MatchingFunctions kCie1964;
 std::span<const NamedTable> illuminants();
 extern const SmitsData kSmitsReflectance;
 extern const SmitsData kSmitsIlluminant;
 extern const SmitsData kSmits1999;
+extern const PrimaryDecomposition kMallettYuksel;
+// Computed by tools/generate_tables.
+extern const BasisRows kSmitsExact;
+extern const BasisRows kMallettExact;
+extern const SigmoidStart kSigmoidStart;
 
 }  // namespace spectile::data

@@ -26,7 +26,7 @@ class RgbSource {
   const Imf::Header& header() const { return input_->header(part_); }
   int width() const { return width_of(header()); }
   int height() const { return height_of(header()); }
-  const ColorSpace& color_space() const noexcept { return space_; }
+  const RgbSpace& color_space() const noexcept { return space_; }
   const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
   /// What cannot pass through, in words.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
@@ -53,7 +53,7 @@ class RgbSource {
   bool with_chroma_ = false;
   std::vector<PlaneSpec> planes_;
   std::vector<std::string> file_names_;
-  ColorSpace space_;
+  RgbSpace space_;
   std::vector<std::string> notes_;
 };
 

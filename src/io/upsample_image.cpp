@@ -12,6 +12,7 @@
 #include "src/io/output.hpp"
 #include "src/io/rgb_source.hpp"
 #include "src/io/spectral_layout.hpp"
+#include "src/ops/color_matrix.hpp"
 #include "src/ops/tiles.hpp"
 
 namespace spectile {
@@ -200,7 +201,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   ImageReport report = io::report_of(**writer, *stats);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
-  report.color_space = (*source)->color_space().name;
+  report.color_space = (*source)->color_space().description;
   report.notes = (*source)->notes();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

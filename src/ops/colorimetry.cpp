@@ -110,12 +110,12 @@ Result<void> luminance(const Projector& projector, SampledSpectraView spectra, L
 
 const Matrix3& srgb_to_xyz_matrix() {
   // IEC 61966-2-1:1999: the primaries of ITU-R BT.709 and its D65 white.
-  static const Matrix3 matrix = color::rgb_to_xyz(color::kRec709);
+  static const Matrix3 matrix = rgb_to_xyz(kRec709);
   return matrix;
 }
 
 const Matrix3& xyz_to_srgb_matrix() {
-  static const Matrix3 matrix = color::inverse(srgb_to_xyz_matrix());
+  static const Matrix3 matrix = inverse(srgb_to_xyz_matrix());
   return matrix;
 }
 

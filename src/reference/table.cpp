@@ -6,7 +6,9 @@
 
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/half.hpp"
+#include "src/reference/sigmoid.hpp"
 #include "src/reference/smits.hpp"
+#include "src/reference/sums.hpp"
 
 namespace spectile::reference {
 namespace {
@@ -20,28 +22,23 @@ void weighted_sum(float* y, const float* spectra, const float* weights, std::siz
                   std::size_t blocks) noexcept {
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      float sum = 0;
-      for (std::size_t band = 0; band < bands; ++band) {
-        sum = sum + weights[band] * spectra[(block * bands + band) * kLanes + lane];
-      }
-      y[block * kLanes + lane] = sum;
+      y[block * kLanes + lane] = sum_in_runs(bands, [&](std::size_t band) {
+        return weights[band] * spectra[(block * bands + band) * kLanes + lane];
+      });
     }
   }
 }
 
 void project(float* x, float* y, float* z, const float* spectra, const float* weights, std::size_t bands,
              std::size_t blocks) noexcept {
+  float* const out[3] = {x, y, z};
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      float sum[3] = {0, 0, 0};
-      for (std::size_t band = 0; band < bands; ++band) {
-        const float s = spectra[(block * bands + band) * kLanes + lane];
-        for (std::size_t k = 0; k < 3; ++k) sum[k] = sum[k] + weights[4 * band + k] * s;
+      for (std::size_t k = 0; k < 3; ++k) {
+        out[k][block * kLanes + lane] = sum_in_runs(bands, [&](std::size_t band) {
+          return weights[4 * band + k] * spectra[(block * bands + band) * kLanes + lane];
+        });
       }
-      const std::size_t at = block * kLanes + lane;
-      x[at] = sum[0];
-      y[at] = sum[1];
-      z[at] = sum[2];
     }
   }
 }
@@ -94,6 +91,16 @@ void smits_rows_half(void* const* rows, const float* const rgb[3], const float* 
     for (std::size_t band = 0; band < bands; ++band) {
       const float sample = smits_sample(m, table + band * kSmitsRow, lowest);
       put(rows[band], i, half_from_float(kHalfMax < sample ? kHalfMax : sample));
+    }
+  }
+}
+
+void smits_fold(float* const dst[3], const float* const rgb[3], const float* table, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* const row = table + k * kSmitsRow;
+      dst[k][i] = (m.white * row[0] + m.second * row[m.second_index]) + m.first * row[m.first_index];
     }
   }
 }
@@ -153,6 +160,13 @@ const kernels::KernelTable table = {
     .smits_blocks = smits_blocks,
     .smits_rows_float = smits_rows_float,
     .smits_rows_half = smits_rows_half,
+    .smits_fold = smits_fold,
+    .sigmoid_solve = sigmoid_solve,
+    .sigmoid_blocks = sigmoid_blocks,
+    .sigmoid_rows_float = sigmoid_rows_float,
+    .sigmoid_rows_half = sigmoid_rows_half,
+    .sigmoid_project = sigmoid_project,
+    .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,

@@ -1,0 +1,34 @@
+// Constants of the search for sigmoid coefficients, common to the kernels and their scalar twin.
+#pragma once
+
+#include <cstdint>
+
+namespace spectile::kernels {
+
+/// Half the inverse square root: a guess from this less half the bits, a step of third order and one of second.
+/// The guess and the two constants of the first step make its largest error least, 1.7e-4 (found by search;
+/// starting from Lomont, Fast Inverse Square Root, 2003, and the series 15/8 - 10/8 e + 3/8 e^2, scaled so that
+/// its last coefficient is 1); the constant of the second is 3/4 of the cube root of 4, which makes its other
+/// coefficient 1.
+inline constexpr std::uint32_t kRootGuess = 0x5F021E39U;
+inline constexpr float kRootFirst = 1.57632448F;
+inline constexpr float kRootSecond = 1.87161556F;
+inline constexpr float kRootThird = 1.19055079F;
+
+/// Largest component below which a colour counts as black.
+inline constexpr float kSigmoidBlack = 0x1p-40F;
+/// A step is the last where the residual times the step's length is below this part of the colour's largest
+/// component (or of kSigmoidDark, if that is more): the error that it leaves was found to be at most 2.7 times
+/// that product, below rounding.
+inline constexpr float kSigmoidClose = 5e-7F;
+inline constexpr float kSigmoidDark = 0.05F;
+/// Steps count as good, and the first one is taken, only from this near; the first relative to the largest
+/// component.
+inline constexpr float kSigmoidNear = 0.05F;
+/// A colour whose residual stays above this has no coefficients.
+inline constexpr float kSigmoidUnsolved = 1e-5F;
+/// Evaluations at most, and the shortest part of a step that is tried.
+inline constexpr int kSigmoidSteps = 40;
+inline constexpr float kSigmoidShortest = 0x1p-12F;
+
+}  // namespace spectile::kernels

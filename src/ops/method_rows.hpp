@@ -1,0 +1,46 @@
+// A method's two steps on rows of lanes: colours to coefficients, coefficients to samples.
+#pragma once
+
+#include <cstdint>
+#include <spectile/upsample.hpp>
+
+#include "kernels/abi.hpp"
+
+namespace spectile::rows {
+
+/// Coefficients of a row of lanes, where they are kept. For methods that mix basis spectra they are the RGB.
+struct Coefficients {
+  float* c[3] = {nullptr, nullptr, nullptr};
+  float* scale = nullptr;  ///< null where the method needs none
+};
+
+/// Whether a method's coefficients are its RGB.
+inline bool mixes_bases(const Upsampler& upsampler) {
+  return upsampler.sigmoid() == nullptr;
+}
+/// Whether every lane has a scale besides its coefficients.
+inline bool has_scale(const Upsampler& upsampler) {
+  return !mixes_bases(upsampler) && upsampler.quantity() != Quantity::kReflectance;
+}
+
+/// Lanes of a call at most; what the sigmoid needs besides its results is on the stack.
+inline constexpr std::size_t kMostLanes = 4096;
+
+/// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
+/// that has none. `out` may be `rgb`.
+void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
+           const Coefficients& out, std::uint64_t* unsolved, std::size_t n);
+
+/// Coefficients to blocks of samples.
+void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
+                   const float* scale, float* spectra, std::size_t blocks, bool stream);
+
+/// Coefficients to a row of samples for each band, floats or halves; any n.
+void expand_rows(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
+                 const float* scale, void* const* bands, bool half, std::size_t n);
+
+/// limit_gamut() on a row of `n` lanes, padded to a multiple of 64 with zeros.
+GamutReport limit_gamut(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
+                        OutOfGamut policy, std::size_t n);
+
+}  // namespace spectile::rows

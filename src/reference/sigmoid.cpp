@@ -1,0 +1,223 @@
+// The sigmoid of a quadratic in one lane, and the search for its coefficients.
+#include "src/reference/sigmoid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "kernels/sigmoid_constants.hpp"
+
+namespace spectile::reference {
+namespace {
+
+using namespace kernels;
+
+/// a * b + c, rounded once.
+float fused(float a, float b, float c) {
+  return std::fma(a, b, c);
+}
+
+/// Sums over the bands and their derivatives by the coefficients: [rgb][c0, c1, c2].
+struct Sums {
+  float f[3] = {0, 0, 0};
+  float j[3][3] = {};
+};
+
+float residual(const Sums& sums, const float target[3], float r[3]) {
+  for (std::size_t k = 0; k < 3; ++k) r[k] = target[k] - sums.f[k];
+  // As the vector maximum: the second operand where the first is not greater.
+  const float first = std::abs(r[0]) > std::abs(r[1]) ? std::abs(r[0]) : std::abs(r[1]);
+  return first > std::abs(r[2]) ? first : std::abs(r[2]);
+}
+
+void add_slopes(Sums& sums, const SigmoidPoint& p, const float* row) {
+  const float slope = (p.root * p.root) * p.root;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) sums.j[k][i] = fused(slope, row[3 * k + i], sums.j[k][i]);
+  }
+}
+
+/// Sums over all bands, run by run, and their derivatives.
+Sums sums_of(const float c[3], const SigmoidTable& table) {
+  Sums sums;
+  for (std::size_t first = 0; first < table.bands; first += kSumRun) {
+    float run[3] = {0, 0, 0};
+    for (std::size_t b = first; b < table.bands && b < first + kSumRun; ++b) {
+      const float* row = table.rows + b * kSigmoidRow;
+      const SigmoidPoint p = sigmoid_point(c, row[kSigmoidLambda]);
+      for (std::size_t k = 0; k < 3; ++k) run[k] = fused(table.weights[4 * b + k], p.sample, run[k]);
+      add_slopes(sums, p, row);
+    }
+    for (std::size_t k = 0; k < 3; ++k) sums.f[k] = sums.f[k] + run[k];
+  }
+  return sums;
+}
+
+void cross(const float u[3], const float v[3], float out[3]) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t m = (i + 1) % 3;
+    const std::size_t n = (i + 2) % 3;
+    out[i] = fused(-u[n], v[m], u[m] * v[n]);
+  }
+}
+
+/// Newton's step, by Cramer's rule; zero where it is not finite.
+void newton_step(const Sums& sums, const float r[3], float step[3]) {
+  const float* const a = sums.j[0];
+  const float* const b = sums.j[1];
+  const float* const c = sums.j[2];
+  float bc[3];
+  float ca[3];
+  float ab[3];
+  cross(b, c, bc);
+  cross(c, a, ca);
+  cross(a, b, ab);
+  const float determinant = fused(a[2], bc[2], fused(a[1], bc[1], a[0] * bc[0]));
+  const float inverse = 1.0F / determinant;
+  bool finite = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    step[i] = fused(r[2], ab[i], fused(r[1], ca[i], r[0] * bc[i])) * inverse;
+    finite = finite && std::abs(step[i]) < kSigmoidFar;
+  }
+  for (std::size_t i = 0; i < 3 && !finite; ++i) step[i] = 0;
+}
+
+/// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
+bool is_last(float size, const float step[3], float close) {
+  const float length = (std::abs(step[0]) + std::abs(step[1])) + std::abs(step[2]);
+  return size * length <= close && size <= kSigmoidNear;
+}
+
+/// Steps from start coefficients to those of the target; 0 where it got there, else the residual that is left.
+float refine(float c[3], const float target[3], float close, const SigmoidTable& table) {
+  Sums sums = sums_of(c, table);
+  float r[3];
+  float size = residual(sums, target, r);
+  float part = 1;
+  for (int i = 0; i < kSigmoidSteps; ++i) {
+    float step[3];
+    newton_step(sums, r, step);
+    if (is_last(size, step, close)) {
+      for (std::size_t k = 0; k < 3; ++k) c[k] = c[k] + step[k];
+      return 0;
+    }
+    float trial[3];
+    for (std::size_t k = 0; k < 3; ++k) trial[k] = c[k] + part * step[k];
+    const Sums sums_there = sums_of(trial, table);
+    float r_there[3];
+    const float size_there = residual(sums_there, target, r_there);
+    if (size_there < size) {
+      std::copy(trial, trial + 3, c);
+      std::copy(r_there, r_there + 3, r);
+      sums = sums_there;
+      size = size_there;
+      part = part + part > 1 ? 1 : part + part;
+    } else {
+      part = part * 0.25F;
+      if (part < kSigmoidShortest) return size;
+    }
+  }
+  return size;
+}
+
+/// Start coefficients for a colour in the dark half of the cube: the expansion around the nearest node.
+void start(const float v[3], float c[3], const SigmoidTable& table) {
+  const std::size_t most = v[0] >= v[1] && v[0] >= v[2] ? 0 : v[1] >= v[2] ? 1 : 2;
+  const float z = v[most];
+  const float inverse = 1.0F / z;
+  const float q[3] = {1.0F - std::sqrt(1.0F - z), std::sqrt(v[(most + 1) % 3] * inverse),
+                      std::sqrt(v[(most + 2) % 3] * inverse)};
+  const auto steps = static_cast<float>(table.steps);
+  std::int32_t node = static_cast<std::int32_t>(most);
+  float d[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float scaled = q[i] * steps;
+    const float limited = steps - 0.5F < scaled ? steps - 0.5F : scaled;
+    const auto cell = static_cast<std::int32_t>(limited);
+    d[i] = scaled - (static_cast<float>(cell) + 0.5F);
+    node = node * table.steps + cell;
+  }
+  const float* const entry = table.nodes + static_cast<std::size_t>(node) * kSigmoidNode;
+  const float root = 1.0F / std::sqrt(z);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* const e = entry + 3 + 9 * k;
+    // By the powers of the first distance, then of the second, then of the third.
+    const float first = fused(fused(e[3], d[0], e[0]), d[0], entry[k]);
+    const float slope = fused(e[4], d[1], fused(e[6], d[0], e[1]));
+    const float last_slope = fused(e[5], d[2], fused(e[8], d[1], fused(e[7], d[0], e[2])));
+    c[k] = fused(last_slope, d[2], fused(slope, d[1], first)) * root;
+  }
+}
+
+}  // namespace
+
+float half_inverse_root(float t) noexcept {
+  const float y0 = std::bit_cast<float>(kRootGuess - (std::bit_cast<std::uint32_t>(t) >> 1));
+  const float f = (y0 * y0) * t;
+  const float y1 = y0 * fused(f, f - kRootSecond, kRootFirst);
+  return y1 * fused(-(y1 * y1), t, kRootThird);
+}
+
+SigmoidPoint sigmoid_point(const float c[3], float lambda) noexcept {
+  const float x = fused(fused(c[0], lambda, c[1]), lambda, c[2]);
+  const float root = half_inverse_root(fused(x, x, 1.0F));
+  return {fused(x, root, 0.5F), root};
+}
+
+float sigmoid_sample(const float c[3], float lambda) noexcept {
+  const float s = sigmoid_point(c, lambda).sample;
+  const float above = s < 0.0F ? 0.0F : s;
+  return 1.0F < above ? 1.0F : above;
+}
+
+bool sigmoid_coefficients(float c[3], const float rgb[3], const SigmoidTable& table) noexcept {
+  bool finite = true;
+  for (std::size_t k = 0; k < 3; ++k) finite = finite && rgb[k] - rgb[k] == 0.0F;
+  if (!finite) {
+    for (std::size_t k = 0; k < 3; ++k) c[k] = std::numeric_limits<float>::quiet_NaN();
+    return true;
+  }
+  float v[3];
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float above = rgb[k] < 0.0F ? 0.0F : rgb[k];
+    v[k] = 1.0F < above ? 1.0F : above;
+    inside = inside && v[k] == rgb[k];
+  }
+  // The reflectance of 1 - colour is 1 - reflectance: only the dark half of the cube is searched.
+  const bool bright = std::max({v[0], v[1], v[2]}) + std::min({v[0], v[1], v[2]}) > 1.0F;
+  float target[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = bright ? 1.0F - v[k] : v[k];
+    target[k] = bright ? 1.0F - rgb[k] : rgb[k];
+  }
+  const float z = std::max({v[0], v[1], v[2]});
+  const bool black = z < kSigmoidBlack;
+  const bool grey = v[0] == v[1] && v[1] == v[2];
+  bool solved = true;
+  if (inside && black) {
+    c[0] = c[1] = 0;
+    c[2] = -kSigmoidFar;
+  } else if (inside && grey) {
+    c[0] = c[1] = 0;
+    c[2] = (z - 0.5F) / std::sqrt(z * (1.0F - z));
+  } else {
+    const float lit[3] = {black ? 0.5F : v[0], black ? 0.5F : v[1], black ? 0.5F : v[2]};
+    start(lit, c, table);
+    const Sums sums = sums_of(c, table);
+    float r[3];
+    const float size = residual(sums, target, r);
+    float step[3];
+    newton_step(sums, r, step);
+    const bool near = size <= kSigmoidNear * z;
+    for (std::size_t k = 0; k < 3; ++k) c[k] = near ? c[k] + step[k] : c[k];
+    const float close = kSigmoidClose * (z < kSigmoidDark ? kSigmoidDark : z);
+    const bool last = inside && near && is_last(size, step, close);
+    if (!last) solved = refine(c, target, close, table) <= kSigmoidUnsolved;
+  }
+  for (std::size_t k = 0; k < 3; ++k) c[k] = bright ? -c[k] : c[k];
+  return solved;
+}
+
+}  // namespace spectile::reference
