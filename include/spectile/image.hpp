@@ -12,6 +12,7 @@
 #include <spectile/bands.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/result.hpp>
+#include <spectile/rgb_space.hpp>
 #include <spectile/upsample.hpp>
 #include <string>
 #include <string_view>
@@ -43,10 +44,17 @@ enum class NonFinite {
   kZero,  ///< the whole pixel becomes black, and is counted
 };
 
-/// What to do with components of the input below 0.
+/// What to do with components of the input below 0, in the input's own RGB.
 enum class Negative {
   kClip,  ///< they become 0, and their pixels are counted
   kKeep,  ///< they stay, and so do the samples below 0 that they make
+  kStop,  ///< an error that names the first of them and their number
+};
+
+/// What to do with colours that the method cannot make, once they are in its RGB.
+enum class GamutPolicy {
+  kClip,  ///< they move to the nearest one that it can make at the same luminance and dominant wavelength
+  kKeep,  ///< they stay, and so do the samples below 0 that they make; the sigmoid comes as near as it gets
   kStop,  ///< an error that names the first of them and their number
 };
 
@@ -69,22 +77,59 @@ struct ImageOptions {
   ProgressFunction progress;
 };
 
-struct UpsampleImageOptions : ImageOptions {
-  Method method = Method::kSmits;
+/// A light and how it is called in files and reports.
+struct NamedLight {
+  std::string name;
+  MeasuredSpectrum spectrum;
+};
+
+/// How colours become spectra: what upsampling, relighting and verification share.
+struct MethodOptions : ImageOptions {
+  Method method = kDefaultMethod;
   Quantity quantity = Quantity::kReflectance;
   Bands bands;
+  std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the white reflector; D65 where none
+  Observer observer = Observer::kCie1931;
+  std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
   Negative negative = Negative::kClip;
+  std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
   std::string layer;  ///< layer, view or part to take R, G, B from; empty for the plain ones
+};
+
+/// What upsample_image writes.
+enum class Store {
+  kSpectra,       ///< a channel for each band
+  kCoefficients,  ///< the method's three (or four) coefficients, which expand_image() turns into spectra
+};
+
+struct UpsampleImageOptions : MethodOptions {
+  Store store = Store::kSpectra;
 };
 
 /// What project_image writes.
 enum class ColorTarget { kSrgb, kXyz, kLuminance };
+
+/// How relight_image comes from RGB to colour under a light.
+enum class Way {
+  kDirect,   ///< without spectra: a table of 3 x 7 for mixtures of bases, sums in registers for the sigmoid
+  kSpectra,  ///< the long way, spectrum by spectrum, to check the direct one
+};
+
+struct RelightImageOptions : MethodOptions {
+  NamedLight under;  ///< the light to see the texture under
+  ColorTarget target = ColorTarget::kSrgb;
+  Observer seen_by = Observer::kCie1931;
+  Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65
+  Way way = Way::kDirect;
+  explicit RelightImageOptions(NamedLight seen_under) : under(std::move(seen_under)) {}
+};
 
 struct ProjectImageOptions : ImageOptions {
   ColorTarget target = ColorTarget::kSrgb;
   Observer observer = Observer::kCie1931;
   std::optional<MeasuredSpectrum> light;  ///< for reflectances; D65 where none is given
   std::optional<Quantity> quantity;       ///< which to take where a file holds both
+  Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
 };
 
 /// What a conversion did.
@@ -94,8 +139,9 @@ struct ImageReport {
   std::size_t bands = 0;
   Quantity quantity = Quantity::kReflectance;
   std::uint64_t nonfinite_pixels = 0;  ///< replaced by black
-  std::uint64_t negative_pixels = 0;   ///< with a component below 0 (upsampling: before clipping)
+  std::uint64_t negative_pixels = 0;   ///< with a component below 0 (of the input, before clipping)
   std::uint64_t over_one_pixels = 0;   ///< with a component above 1
+  std::uint64_t out_of_gamut_pixels = 0;  ///< that the method cannot make, before they were moved
   std::uint64_t limited_pixels = 0;    ///< with a sample beyond the largest half, written as that
   std::uint64_t bytes_written = 0;
   double seconds = 0;
@@ -110,17 +156,33 @@ struct ImageReport {
 /// through.
 ///
 /// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or
-/// without chroma. RGB is linear, of the space that the attributes colorInteropID or chromaticities name,
-/// else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's white to D65, so that
-/// RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it was. Output: the layout
-/// of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021.
+/// without chroma. RGB is linear, of the space that the options or the attributes colorInteropID or
+/// chromaticities name, else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's white
+/// to D65, so that RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it was.
+/// Output: the layout of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021; or, as coefficients, the float channels
+/// spectile.c0, c1, c2 (and spectile.scale) with attributes that say how to expand them.
 Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
                                    const UpsampleImageOptions& options = {});
 
-/// Turns a spectral image into linear sRGB (white D65, no adaptation), XYZ or luminance; alpha and other
-/// channels pass through.
+/// Turns a spectral image into linear sRGB (white D65, no adaptation; see Projector::xyz_to_srgb), XYZ or
+/// luminance; alpha and other channels pass through.
 Result<ImageReport> project_image(const std::string& input, const std::string& output,
                                   const ProjectImageOptions& options = {});
+
+/// Turns a texture into its colour under another light, as if it were upsampled and projected under that; its
+/// alpha and other channels pass through. Direct ways give the bits of the long one for the sigmoid, and come
+/// within Relighter::bound() of it for mixtures of bases. Errors: kBadArgument too, for light as quantity.
+Result<ImageReport> relight_image(const std::string& input, const std::string& output,
+                                  const RelightImageOptions& options);
+
+/// Turns an image of coefficients, written by upsample_image(), into spectra: the bits that upsample_image()
+/// would have written. For other bands than those it was made for, the spectra are evaluated there. The image's
+/// attributes say method, quantity, light and observer.
+struct ExpandImageOptions : ImageOptions {
+  std::optional<Bands> bands;  ///< those it was made for where none
+};
+Result<ImageReport> expand_image(const std::string& input, const std::string& output,
+                                 const ExpandImageOptions& options = {});
 
 /// An RGB image in memory, pixel x, y in lane y * width + x.
 struct RgbImage {
@@ -184,6 +246,6 @@ struct VerifyReport {
 
 /// Runs the kernels in force, the scalar reference and the double oracle on every pixel of an RGB or spectral
 /// file.
-Result<VerifyReport> verify_image(const std::string& path, const UpsampleImageOptions& options = {});
+Result<VerifyReport> verify_image(const std::string& path, const MethodOptions& options = {});
 
 }  // namespace spectile

@@ -27,6 +27,9 @@ enum class Method {
   kSigmoid,     ///< a sigmoid of a quadratic: smooth, between 0 and 1, exact, also for colours outside sRGB
 };
 
+/// The method where none is asked for. See docs/methods.md for the table by which it was chosen.
+inline constexpr Method kDefaultMethod = Method::kSmitsExact;
+
 /// What the spectra stand for.
 enum class Quantity {
   kReflectance,  ///< 0 to 1, no unit

@@ -24,6 +24,7 @@ void PixelCount::add(const PixelCount& later) {
 void LineStats::add(const LineStats& later) {
   nonfinite.add(later.nonfinite);
   negative.add(later.negative);
+  outside.add(later.outside);
   over_one += later.over_one;
   limited += later.limited;
 }

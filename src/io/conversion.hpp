@@ -30,6 +30,7 @@ struct PixelCount {
 struct LineStats {
   PixelCount nonfinite;
   PixelCount negative;
+  PixelCount outside;  // colours that the method cannot make
   std::uint64_t over_one = 0;
   std::uint64_t limited = 0;
   void add(const LineStats& later);

@@ -22,6 +22,7 @@ ImageReport report_of(const ExrWriter& writer, const LineStats& stats) {
   report.nonfinite_pixels = stats.nonfinite.count;
   report.negative_pixels = stats.negative.count;
   report.over_one_pixels = stats.over_one;
+  report.out_of_gamut_pixels = stats.outside.count;
   report.limited_pixels = stats.limited;
   report.bytes_written = writer.bytes_written();
   return report;

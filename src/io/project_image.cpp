@@ -32,7 +32,7 @@ class ProjectJob : public io::LineJob {
   ProjectJob(io::SpectralSource& source, const Projector& projector, const ProjectImageOptions& options,
              const kernels::KernelTable& kernels)
       : source_(source), projector_(projector), options_(options), kernels_(kernels) {
-    matrix_ = color::to_float(xyz_to_srgb_matrix());
+    matrix_ = color::to_float(projector.xyz_to_srgb());
     color_names_ = names_of(options.target);
   }
 

@@ -136,14 +136,14 @@ Result<void> over_lines(int first, int lines, int threads, VerifyReport& total, 
 }
 
 /// Tells how far a check is. Errors: kCancelled.
-Result<void> go_on(const UpsampleImageOptions& options, int lines, int width, int height) {
+Result<void> go_on(const MethodOptions& options, int lines, int width, int height) {
   const auto w = static_cast<std::uint64_t>(width);
   const Progress progress = {static_cast<std::uint64_t>(lines) * w, static_cast<std::uint64_t>(height) * w};
   if (!options.progress || options.progress(progress)) return {};
   return make_error(ErrorCode::kCancelled, "stopped on request");
 }
 
-Result<VerifyReport> verify_rgb(io::RgbSource& source, const UpsampleImageOptions& options,
+Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& options,
                                 const kernels::KernelTable& kernels) {
   const auto negative =
       options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
@@ -185,7 +185,7 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const UpsampleImageOption
   return report;
 }
 
-Result<VerifyReport> verify_spectral(io::SpectralSource& source, const UpsampleImageOptions& options,
+Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOptions& options,
                                      const kernels::KernelTable& kernels) {
   const bool light = source.quantity() == Quantity::kIlluminant;
   const auto d65 = illuminant("D65");
@@ -215,7 +215,7 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const UpsampleI
   return report;
 }
 
-Result<VerifyReport> verify(const std::string& path, const UpsampleImageOptions& options) {
+Result<VerifyReport> verify(const std::string& path, const MethodOptions& options) {
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
@@ -228,7 +228,7 @@ Result<VerifyReport> verify(const std::string& path, const UpsampleImageOptions&
 
 }  // namespace
 
-Result<VerifyReport> verify_image(const std::string& path, const UpsampleImageOptions& options) {
+Result<VerifyReport> verify_image(const std::string& path, const MethodOptions& options) {
   return io::contained<VerifyReport>(path, [&] { return verify(path, options); });
 }
 

@@ -1,4 +1,5 @@
 // Projection to CIE XYZ, luminance, and XYZ to and from linear sRGB.
+#include <cmath>
 #include <spectile/colorimetry.hpp>
 
 #include "src/data/tables.hpp"
@@ -23,6 +24,17 @@ MeasuredSpectrum matching_function(const data::MatchingFunctions& observer, std:
   return *MeasuredSpectrum::from_samples(wavelengths, samples);
 }
 
+/// XYZ to sRGB with this white at RGB 1, 1, 1, or with the standard's where this one is far from it.
+Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
+  constexpr double kFar = 0.1;
+  const std::array<double, 3> scaled = {white[0] / white[1], 1.0, white[2] / white[1]};
+  const std::array<double, 3> rgb = times(xyz_to_srgb_matrix(), scaled);
+  for (const double v : rgb) {
+    if (!(std::abs(v - 1) <= kFar)) return xyz_to_srgb_matrix();
+  }
+  return inverse(rgb_to_xyz(kRec709, scaled));
+}
+
 }  // namespace
 
 Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light,
@@ -31,6 +43,8 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
   const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar),
                                          matching_function(table, table.y_bar),
                                          matching_function(table, table.z_bar)};
+  const MeasuredSpectrum d65 = *illuminant("D65");
+  std::array<double, 3> d65_white{};
   Projector projector;
   projector.bands_ = bands;
   projector.observer_ = observer;
@@ -41,6 +55,11 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
       w[k] = light == nullptr ? functions[k].integral(band.lower_nm, band.upper_nm)
                               : product_integral(functions[k], *light, band.lower_nm, band.upper_nm);
     }
+    for (std::size_t k = 0; k < 3; ++k) {
+      d65_white[k] += light == nullptr
+                          ? w[k] * d65.integral(band.lower_nm, band.upper_nm) / band.width_nm()
+                          : product_integral(functions[k], d65, band.lower_nm, band.upper_nm);
+    }
     luminance += w[1];
     projector.weights_.push_back(w);
   }
@@ -48,6 +67,7 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
     return make_error(ErrorCode::kBadArgument, "bands {} hold no {} luminance", bands.description(),
                       light == nullptr ? "visible" : "of the light's");
   }
+  projector.xyz_to_srgb_ = white_keeping_srgb(d65_white);
   for (auto& w : projector.weights_) {
     for (double& v : w) v /= luminance;
     for (const double v : w) projector.float_weights_.push_back(static_cast<float>(v));

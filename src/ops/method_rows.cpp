@@ -2,6 +2,7 @@
 #include "src/ops/method_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "src/ops/sigmoid_model.hpp"
@@ -22,6 +23,20 @@ void normalize(const float* const rgb[3], float* const out[3], float* scale, std
 }
 
 }  // namespace
+
+float largest_sample(const Upsampler& upsampler) {
+  float largest = 0;
+  for (const auto& band : upsampler.basis()) {
+    for (const double v : band) largest = std::max(largest, std::abs(static_cast<float>(v)));
+  }
+  if (mixes_bases(upsampler)) return largest;
+  // A sigmoid is at most 1, times a scale of twice the component, times its white.
+  const kernels::SigmoidTable& table = upsampler.sigmoid()->table;
+  for (std::size_t b = 0; b < table.bands; ++b) {
+    largest = std::max(largest, 2 * table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
+  }
+  return largest;
+}
 
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
            const Coefficients& out, std::uint64_t* unsolved, std::size_t n) {

@@ -23,8 +23,8 @@ inline bool has_scale(const Upsampler& upsampler) {
   return !mixes_bases(upsampler) && upsampler.quantity() != Quantity::kReflectance;
 }
 
-/// Lanes of a call at most; what the sigmoid needs besides its results is on the stack.
-inline constexpr std::size_t kMostLanes = 4096;
+/// Largest sample that a colour whose largest component is 1 can have.
+float largest_sample(const Upsampler& upsampler);
 
 /// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
 /// that has none. `out` may be `rgb`.

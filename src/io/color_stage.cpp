@@ -1,0 +1,77 @@
+// ColorStage: from an image's samples to the RGB of a method, with every check on the way.
+#include "src/io/color_stage.hpp"
+
+#include "src/base/errors.hpp"
+#include "src/io/color_space.hpp"
+#include "src/ops/color_matrix.hpp"
+#include "src/ops/method_rows.hpp"
+
+namespace spectile::io {
+
+ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, const MethodOptions& options,
+                       const kernels::KernelTable& kernels)
+    : source_(source),
+      upsampler_(upsampler),
+      options_(options),
+      kernels_(kernels),
+      space_(options.input_space ? *options.input_space : source.color_space()),
+      out_of_gamut_(options.out_of_gamut.value_or(
+          options.negative == Negative::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip)) {
+  convert_ = !is_srgb(space_);
+  matrix_ = color::to_float(to_srgb(space_, options.quantity));
+}
+
+float ColorStage::line(const Strip& strip, int line, const ColorLine& color, LineStats& stats) const {
+  float* const* rows = color.rows;
+  const auto width = static_cast<std::size_t>(source_.width());
+  const float* const rgb[3] = {rows[0], rows[1], rows[2]};
+  source_.float_rows(kernels_, strip, line, rows);
+  settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
+  LineStats own;
+  float largest = settle_range(kernels_, rows, width, line, options_.negative, own);
+  stats.negative.add(own.negative);
+  if (convert_) {
+    kernels_.transform3(rows, rgb, matrix_.data(), color.padded);
+    own = {};
+    largest = settle_range(kernels_, rows, width, line, Negative::kKeep, own);
+  }
+  stats.over_one += own.over_one;
+  // Most lines have no colour that any method could not make.
+  const bool bounded = !rows::mixes_bases(upsampler_) && options_.quantity == Quantity::kReflectance;
+  if (own.negative.count == 0 && !(bounded && own.over_one > 0)) return largest;
+  const auto policy = out_of_gamut_ == GamutPolicy::kClip ? OutOfGamut::kClip : OutOfGamut::kKeep;
+  const GamutReport found = rows::limit_gamut(kernels_, upsampler_, rows, policy, width);
+  if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
+  return largest;
+}
+
+bool ColorStage::forbidden(const LineStats& stats) const {
+  return (options_.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0) ||
+         (options_.negative == Negative::kStop && stats.negative.count > 0) ||
+         (out_of_gamut_ == GamutPolicy::kStop && stats.outside.count > 0);
+}
+
+Error ColorStage::refusal(const std::string& path, const LineStats& stats) const {
+  if (options_.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0) {
+    return stopped_at(path, ErrorCode::kNonFinite, "non-finite", stats.nonfinite,
+                      "--nonfinite zero makes them black");
+  }
+  if (options_.negative == Negative::kStop && stats.negative.count > 0) {
+    return stopped_at(path, ErrorCode::kBadFile, "negative", stats.negative,
+                      "--negative clip or keep converts them");
+  }
+  return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside,
+                    "--out-of-gamut clip or keep converts them");
+}
+
+Result<Upsampler> upsampler_for(const MethodOptions& options) {
+  UpsamplerOptions out;
+  const GamutPolicy gamut = options.out_of_gamut.value_or(
+      options.negative == Negative::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip);
+  if (gamut == GamutPolicy::kKeep) out.negative = NegativeSamples::kKeep;
+  if (options.light) out.light = options.light->spectrum;
+  out.observer = options.observer;
+  return Upsampler::create(options.method, options.quantity, options.bands, out);
+}
+
+}  // namespace spectile::io
