@@ -73,6 +73,7 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"nonfinite_pixels", r.nonfinite_pixels},
           {"negative_pixels", r.negative_pixels},
           {"over_one_pixels", r.over_one_pixels},
+          {"out_of_gamut_pixels", r.out_of_gamut_pixels},
           {"limited_pixels", r.limited_pixels},
           {"bytes_written", r.bytes_written},
           {"seconds", r.seconds},
@@ -94,7 +95,10 @@ void print_report(const Job& job, const ImageReport& r) {
     fmt::print("  {} with a component below 0\n", plural(r.negative_pixels, "pixel"));
   }
   if (r.over_one_pixels > 0 && r.quantity == Quantity::kReflectance && !r.color_space.empty()) {
-    fmt::print("  {} above 1, which no real reflectance is; kept\n", plural(r.over_one_pixels, "pixel"));
+    fmt::print("  {} above 1, which no real reflectance is\n", plural(r.over_one_pixels, "pixel"));
+  }
+  if (r.out_of_gamut_pixels > 0) {
+    fmt::print("  {} outside the method's gamut\n", plural(r.out_of_gamut_pixels, "pixel"));
   }
   if (r.limited_pixels > 0) {
     fmt::print("  {} beyond the range of half, limited to 65504; --pixel float keeps them\n",

@@ -1,8 +1,8 @@
 // spectile project: spectral images to colour.
-#include <filesystem>
 #include <memory>
 
 #include "src/cli/common.hpp"
+#include "src/cli/method_options.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -16,6 +16,7 @@ struct Arguments {
   std::string illuminant;
   std::string observer = "1931";
   std::string quantity;
+  std::string adapt = "none";
 };
 
 int run(const Arguments& a) {
@@ -28,15 +29,11 @@ int run(const Arguments& a) {
                                          : ColorTarget::kSrgb;
   options.observer = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
   if (!a.illuminant.empty()) {
-    std::error_code ignored;
-    const bool file = a.illuminant.find('/') != std::string::npos ||
-                      a.illuminant.find('.') != std::string::npos ||
-                      std::filesystem::is_regular_file(a.illuminant, ignored);
-    auto known = illuminant(a.illuminant);
-    auto light = !known && file ? load_spectrum_csv(a.illuminant) : std::move(known);
+    auto light = load_light(a.illuminant);
     if (!light) return complain(light.error());
-    options.light = *light;
+    options.light = std::move(light->spectrum);
   }
+  options.adaptation = adaptation_of(a.adapt);
   if (!a.quantity.empty()) {
     const auto quantity = parse_quantity(a.quantity);
     if (!quantity) return complain(quantity.error());
@@ -58,11 +55,9 @@ void add_project(CLI::App& app, int& exit) {
   command->add_option("--to", a->to, "srgb (linear, white D65), xyz, or luminance (channel Y)")
       ->check(CLI::IsMember({"srgb", "xyz", "luminance"}))
       ->capture_default_str();
-  std::string names;
-  for (const std::string& name : illuminant_names()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option(
-      "--illuminant", a->illuminant,
-      "Light on reflectances: a file of wavelength,value lines, or one of " + names + "; D65 by default");
+  command->add_option("--illuminant", a->illuminant,
+                      "Light on reflectances: " + light_help() + "; D65 by default");
+  add_adaptation_option(*command, a->adapt);
   command->add_option("--observer", a->observer, "1931 (2 degree) or 1964 (10 degree)")
       ->check(CLI::IsMember({"1931", "1964"}))
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "src/cli/common.hpp"
+#include "src/cli/method_options.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -12,26 +13,14 @@ namespace {
 struct Arguments {
   Common common;
   std::vector<std::string> inputs;
-  std::string method = "smits";
-  std::string quantity = "reflectance";
-  std::string bands = "400:700:5";
-  std::string layer;
+  MethodArguments method;
 };
 
 int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
-  UpsampleImageOptions options;
+  MethodOptions options;
   options.threads = a.common.threads;
-  options.layer = a.layer;
-  const auto method = parse_method(a.method);
-  if (!method) return complain(method.error());
-  options.method = *method;
-  const auto quantity = parse_quantity(a.quantity);
-  if (!quantity) return complain(quantity.error());
-  options.quantity = *quantity;
-  const auto bands = Bands::parse(a.bands);
-  if (!bands) return complain(bands.error());
-  options.bands = *bands;
+  if (const int bad = apply_method_options(a.method, options)) return bad;
   int exit = kOk;
   for (const std::string& input : a.inputs) {
     const auto report = verify_image(input, options);
@@ -71,15 +60,7 @@ void add_verify(CLI::App& app, int& exit) {
   CLI::App* command = app.add_subcommand(
       "verify", "Run kernels, scalar reference and double oracle on every pixel of an image and compare");
   command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->required();
-  command->add_option("--method", a->method, "smits or smits1999")
-      ->check(CLI::IsMember({"smits", "smits1999"}))
-      ->capture_default_str();
-  command->add_option("--quantity", a->quantity, "reflectance or illuminant")
-      ->check(CLI::IsMember({"reflectance", "illuminant"}))
-      ->capture_default_str();
-  command->add_option("--bands", a->bands, "FIRST:LAST:STEP in nm, or a list of centres")
-      ->capture_default_str();
-  command->add_option("--layer", a->layer, "Layer, view or part to take R, G, B from");
+  add_method_options(*command, a->method);
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

@@ -7,8 +7,10 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/color_rows.hpp"
 #include "src/io/conversion.hpp"
 #include "src/io/lines.hpp"
+#include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/color_matrix.hpp"
@@ -32,8 +34,11 @@ class ProjectJob : public io::LineJob {
   ProjectJob(io::SpectralSource& source, const Projector& projector, const ProjectImageOptions& options,
              const kernels::KernelTable& kernels)
       : source_(source), projector_(projector), options_(options), kernels_(kernels) {
-    matrix_ = color::to_float(projector.xyz_to_srgb());
-    color_names_ = names_of(options.target);
+    matrix_ = color::to_float(io::color_matrix(projector, options.target, options.adaptation));
+    // XYZ without an adaptation, and luminance, are the projector's own.
+    convert_ = options.target == ColorTarget::kSrgb ||
+               (options.target == ColorTarget::kXyz && options.adaptation != Adaptation::kNone);
+    color_names_ = io::color_channels(options.target);
   }
 
   /// Output channels: the colour, then those that pass through.
@@ -46,10 +51,7 @@ class ProjectJob : public io::LineJob {
       const bool taken =
           std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.name == plane.name; });
       if (taken) continue;
-      const exr_pixel_type_t passing = plane.type == Imf::HALF    ? EXR_PIXEL_HALF
-                                       : plane.type == Imf::FLOAT ? EXR_PIXEL_FLOAT
-                                                                  : EXR_PIXEL_UINT;
-      out.push_back({plane.name, passing});
+      out.push_back({plane.name, io::passing_type(plane)});
     }
     return out;
   }
@@ -90,14 +92,20 @@ class ProjectJob : public io::LineJob {
     float* const* rows = work.color.rows;
     project_line(work, strip, line);
     io::settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
-    if (options_.target == ColorTarget::kSrgb) {
+    if (convert_) {
       const float* const xyz[3] = {rows[0], rows[1], rows[2]};
       kernels_.transform3(rows, xyz, matrix_.data(), work.color.padded);
     }
     io::settle_range(kernels_, rows, width, line, Negative::kKeep, stats);
     if (packed == nullptr) return;
-    if (options_.pixel == PixelType::kHalf) stats.limited += limit_to_half(rows, width);
-    for (std::size_t k = 0; k < color_names_.size(); ++k) store_row(work, rows[k], width, k, packed);
+    const std::size_t colors = color_names_.size();
+    if (options_.pixel == PixelType::kHalf) {
+      stats.limited += io::limit_to_half(kernels_, work.color, colors, width);
+    }
+    for (std::size_t k = 0; k < colors; ++k) {
+      io::store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
+                    packed + writer_->channel_offset(k));
+    }
     for (const auto& [channel, plane] : passing_) {
       std::memcpy(packed + writer_->channel_offset(channel), strip.row(plane, line),
                   width * source_.planes()[plane].sample_bytes());
@@ -105,18 +113,6 @@ class ProjectJob : public io::LineJob {
   }
 
  private:
-  static std::vector<const char*> names_of(ColorTarget target) {
-    switch (target) {
-      case ColorTarget::kXyz:
-        return {"X", "Y", "Z"};
-      case ColorTarget::kLuminance:
-        return {"Y"};
-      case ColorTarget::kSrgb:
-        break;
-    }
-    return {"R", "G", "B"};
-  }
-
   /// Blocks that are gathered and then projected together; they stay in the caches.
   std::size_t tile_blocks() const {
     const std::size_t line = blocks_for(static_cast<std::size_t>(source_.width()));
@@ -150,36 +146,6 @@ class ProjectJob : public io::LineJob {
     }
   }
 
-  /// Limits what a half cannot hold, and counts its pixels.
-  std::uint64_t limit_to_half(float* const rows[3], std::size_t width) const {
-    std::uint64_t limited = 0;
-    for (std::size_t x = 0; x < width; ++x) {
-      bool beyond = false;
-      for (std::size_t k = 0; k < color_names_.size(); ++k)
-        beyond = beyond || std::fabs(rows[k][x]) > kernels::kHalfMax;
-      limited += beyond ? 1 : 0;
-    }
-    if (limited > 0) {
-      const std::size_t padded = blocks_for(width) * kLanesPerBlock;
-      for (std::size_t k = 0; k < 3; ++k) {
-        kernels_.clamp(rows[k], rows[k], -kernels::kHalfMax, kernels::kHalfMax, padded);
-      }
-    }
-    return limited;
-  }
-
-  void store_row(Work& work, const float* row, std::size_t width, std::size_t channel,
-                 std::byte* packed) const {
-    std::byte* const out = packed + writer_->channel_offset(channel);
-    if (options_.pixel == PixelType::kFloat) {
-      std::memcpy(out, row, width * sizeof(float));
-      return;
-    }
-    auto* const halves = reinterpret_cast<std::uint16_t*>(work.halves.data());
-    kernels_.float_to_half(halves, row, work.color.padded);
-    std::memcpy(out, halves, width * sizeof(std::uint16_t));
-  }
-
   io::SpectralSource& source_;
   const Projector& projector_;
   const ProjectImageOptions& options_;
@@ -189,6 +155,7 @@ class ProjectJob : public io::LineJob {
   std::vector<std::pair<std::size_t, std::size_t>> passing_;  // output channel, source plane
   std::vector<const char*> color_names_;
   std::array<float, 9> matrix_{};
+  bool convert_ = false;
 };
 
 Result<Projector> projector_for(const io::SpectralSource& source, const std::string& input,
@@ -215,6 +182,12 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   const int threads = tiles::thread_count(options.threads);
   auto source = io::SpectralSource::open(input, options.quantity, threads);
   if (!source) return source.error();
+  if (options.adaptation != Adaptation::kNone && (*source)->quantity() == Quantity::kIlluminant) {
+    return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
+  }
+  if (options.adaptation != Adaptation::kNone && options.target == ColorTarget::kLuminance) {
+    return make_error(ErrorCode::kBadArgument, "{}: luminance alone cannot be adapted", input);
+  }
   const auto projector = projector_for(**source, input, options);
   if (!projector) return projector.error();
 
@@ -224,8 +197,9 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.channels = job.channels();
   spec.compression = options.compression;
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
-  spec.replaced = {"spectralLayoutVersion", "emissiveUnits", "spectileMethod", "chromaticities",
-                   "colorInteropID"};
+  spec.replaced = io::method_attribute_names();
+  spec.replaced.insert(spec.replaced.end(), {"spectralLayoutVersion", "emissiveUnits", "chromaticities",
+                                             "colorInteropID"});
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);

@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/color_rows.hpp"
 #include "src/io/color_stage.hpp"
 #include "src/io/conversion.hpp"
 #include "src/io/method_attributes.hpp"
@@ -57,10 +58,7 @@ class UpsampleJob : public io::LineJob {
   std::vector<io::ChannelSpec> channels() const {
     std::vector<io::ChannelSpec> out;
     for (const io::PlaneSpec& plane : source_.planes()) {
-      const exr_pixel_type_t type = plane.type == Imf::HALF    ? EXR_PIXEL_HALF
-                                    : plane.type == Imf::FLOAT ? EXR_PIXEL_FLOAT
-                                                               : EXR_PIXEL_UINT;
-      out.push_back({plane.name, type});
+      out.push_back({plane.name, io::passing_type(plane)});
     }
     if (options_.store == Store::kCoefficients) {
       for (const std::string& name : io::coefficient_channels(upsampler_)) out.push_back({name, EXR_PIXEL_FLOAT});

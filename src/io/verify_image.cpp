@@ -9,10 +9,12 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/lines.hpp"
 #include "src/io/output.hpp"
+#include "src/io/color_stage.hpp"
 #include "src/io/rgb_source.hpp"
 #include "src/io/spectral_source.hpp"
-#include "src/ops/color_matrix.hpp"
+#include "src/ops/method_rows.hpp"
 #include "src/ops/tiles.hpp"
+#include "src/ops/working_space.hpp"
 #include "src/reference/oracle/oracle.hpp"
 #include "src/reference/table.hpp"
 
@@ -20,6 +22,9 @@ namespace spectile {
 namespace {
 
 constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the error of one rounding
+
+// What coefficients() states for the RGB that a sigmoid's samples come back as.
+constexpr double kSigmoidBound = 1e-6;
 
 /// NaN of any kind are the same result; their payload is not specified.
 bool same_result(float a, float b) {
@@ -45,34 +50,88 @@ void merge(const VerifyReport& from, VerifyReport& into) {
   into.max_oracle_difference = std::max(into.max_oracle_difference, from.max_oracle_difference);
 }
 
+/// What the double oracle makes of one colour.
+struct UpsamplingOracle {
+  const Upsampler& upsampler;
+  std::vector<std::array<double, 7>> basis;  // of methods that mix bases
+  std::optional<WorkingSpace> space;         // of the sigmoid
+  double largest_basis = 0;
+
+  /// Largest error of a colour's samples, over the largest possible one; for the sigmoid, of the RGB that its
+  /// samples come back as. Nothing where the method promises nothing.
+  std::optional<double> difference(const std::array<double, 3>& rgb, std::span<const float> samples) const {
+    const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
+    if (space) {
+      const double size = upsampler.quantity() == Quantity::kReflectance ? 1.0 : *high;
+      if (!(*low >= 0 && *high <= size && *high > 0x1p-100) || !std::isfinite(*high)) return {};
+      double most = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (std::size_t b = 0; b < samples.size(); ++b) {
+          sum += space->weights[b][k] * static_cast<double>(samples[b]);
+        }
+        most = std::max(most, std::abs(sum - rgb[k]) / size);
+      }
+      return most;
+    }
+    const double size = (std::abs(*low) + (*high - *low)) * largest_basis;
+    if (!(size > 0x1p-100) || !std::isfinite(size)) return {};
+    const auto truth = oracle::smits_spectrum(basis, rgb, upsampler.lowest());
+    double most = 0;
+    for (std::size_t b = 0; b < samples.size(); ++b) {
+      most = std::max(most, std::abs(static_cast<double>(samples[b]) - truth[b]) / size);
+    }
+    return most;
+  }
+};
+
+Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptions& options) {
+  UpsamplingOracle out{upsampler, {}, {}};
+  if (!rows::mixes_bases(upsampler)) {
+    const MeasuredSpectrum light = options.light ? options.light->spectrum : *illuminant("D65");
+    auto space = working_space(options.bands, options.quantity, kRec709, light, options.observer);
+    if (!space) return space.error();
+    out.space = *std::move(space);
+    return out;
+  }
+  // The published bases have an oracle of their own; the exact ones are double already.
+  const bool published = options.method == Method::kSmits || options.method == Method::kSmits1999;
+  const auto basis = upsampler.basis();
+  out.basis = published ? oracle::smits_basis(options.method, options.quantity, options.bands)
+                        : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
+  for (const auto& band : out.basis) {
+    for (const double v : band) out.largest_basis = std::max(out.largest_basis, std::abs(v));
+  }
+  return out;
+}
+
 /// Upsampling of one line of RGB, three ways.
-Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampler& upsampler,
-                              const std::vector<std::array<double, 7>>& oracle_basis,
+Result<void> verify_upsampled(const kernels::KernelTable& kernels, const UpsamplingOracle& oracle,
                               const float* const rgb[3], std::size_t width, VerifyReport& report) {
+  const Upsampler& upsampler = oracle.upsampler;
   const std::size_t bands = upsampler.bands().count();
   auto memory = FloatBuffer::create(2 * bands * kLanesPerBlock);
   if (!memory) return memory.error();
   float* const ours = memory->data();
   float* const expected = ours + bands * kLanesPerBlock;
-  double largest_basis = 0;
-  for (const auto& band : oracle_basis) {
-    for (const double v : band) largest_basis = std::max(largest_basis, std::abs(v));
-  }
+  const auto run = [&](const kernels::KernelTable& table, const float* const in[3], float* out) {
+    alignas(64) float c[4][kLanesPerBlock];
+    const float* const read[3] = {c[0], c[1], c[2]};
+    const rows::Coefficients found = {{c[0], c[1], c[2]}, rows::has_scale(upsampler) ? c[3] : nullptr};
+    std::uint64_t unsolved = 0;
+    rows::solve(table, upsampler, in, found, &unsolved, kLanesPerBlock);
+    rows::expand_blocks(table, upsampler, read, found.scale, out, 1, false);
+  };
+  std::vector<float> samples(bands);
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
-    kernels.smits_blocks(ours, in, upsampler.table(), upsampler.lowest(), bands, 1, false);
-    reference::table.smits_blocks(expected, in, upsampler.table(), upsampler.lowest(), bands, 1, false);
+    run(kernels, in, ours);
+    run(reference::table, in, expected);
     compare(ours, expected, bands * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
-      const std::array<double, 3> color = {in[0][i], in[1][i], in[2][i]};
-      const auto truth = oracle::smits_spectrum(oracle_basis, color, upsampler.lowest());
-      const auto [low, high] = std::minmax_element(color.begin(), color.end());
-      const double size = (std::abs(*low) + (*high - *low)) * largest_basis;
-      if (!(size > 0x1p-100) || !std::isfinite(size)) continue;
-      for (std::size_t b = 0; b < bands; ++b) {
-        const double difference = std::abs(static_cast<double>(expected[b * kLanesPerBlock + i]) - truth[b]);
-        report.max_oracle_difference = std::max(report.max_oracle_difference, difference / size);
-      }
+      for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
+      const auto difference = oracle.difference({in[0][i], in[1][i], in[2][i]}, samples);
+      if (difference) report.max_oracle_difference = std::max(report.max_oracle_difference, *difference);
     }
   }
   return {};
@@ -145,22 +204,16 @@ Result<void> go_on(const MethodOptions& options, int lines, int width, int heigh
 
 Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& options,
                                 const kernels::KernelTable& kernels) {
-  const auto negative =
-      options.negative == Negative::kKeep ? NegativeSamples::kKeep : NegativeSamples::kClampToZero;
-  const auto upsampler = Upsampler::create(options.method, options.quantity, options.bands, negative);
+  const auto upsampler = io::upsampler_for(options);
   if (!upsampler) return upsampler.error();
-  // The published bases have an oracle of their own; the exact ones are double already.
-  const bool published = options.method == Method::kSmits || options.method == Method::kSmits1999;
-  const auto basis = upsampler->basis();
-  const std::vector<std::array<double, 7>> oracle_basis =
-      published ? oracle::smits_basis(options.method, options.quantity, options.bands)
-                : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
-  const std::array<float, 9> matrix = color::to_float(io::to_srgb(source.color_space(), options.quantity));
+  const auto oracle = oracle_of(*upsampler, options);
+  if (!oracle) return oracle.error();
+  const io::ColorStage stage(source, *upsampler, options, kernels);
   VerifyReport report;
   report.isa = kernels.name;
   report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
                             options.bands.count());
-  report.oracle_bound = 6 * kUlp;
+  report.oracle_bound = rows::mixes_bases(*upsampler) ? 6 * kUlp : kSigmoidBound;
   const int step = io::strip_lines(source.header(), source.planes(), 1);
   for (int first = 0; first < source.height(); first += step) {
     const int lines = std::min(step, source.height() - first);
@@ -172,12 +225,9 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& opti
           if (!color) return color.error();
           const auto width = static_cast<std::size_t>(source.width());
           const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
-          source.float_rows(kernels, **strip, line, color->rows);
-          if (!io::is_srgb(source.color_space()))
-            kernels.transform3(color->rows, rgb, matrix.data(), color->padded);
           io::LineStats stats;
-          io::settle_range(kernels, color->rows, width, line, options.negative, stats);
-          return verify_upsampled(kernels, *upsampler, oracle_basis, rgb, width, found);
+          stage.line(**strip, line, *color, stats);
+          return verify_upsampled(kernels, *oracle, rgb, width, found);
         }));
     SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
