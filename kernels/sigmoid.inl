@@ -120,15 +120,18 @@ inline Coefficients newton_step(const SigmoidSums& sums, const Residual& left) n
 }
 
 /// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
+inline F32 length_of(const Coefficients& a) noexcept {
+  return (xsimd::abs(a.c[0]) + xsimd::abs(a.c[1])) + xsimd::abs(a.c[2]);
+}
 inline Mask is_last(const Residual& left, const Coefficients& step, F32 close) noexcept {
-  const F32 length = (xsimd::abs(step.c[0]) + xsimd::abs(step.c[1])) + xsimd::abs(step.c[2]);
-  return (left.size * length <= close) & (left.size <= F32(kSigmoidNear));
+  return (left.size * length_of(step) <= close) & (left.size <= F32(kSigmoidNear));
 }
 
-/// Steps from start coefficients until each lane is there; the residual before its last step where it got
+/// Steps from start coefficients, no further than to those of length `steep`, until each lane is there; the residual before its last step where it got
 /// there, with a minus sign, else what is left. A lane that is done stays as it is, so that no lane depends on
 /// its neighbours.
-inline F32 refine(Coefficients& a, const F32 target[3], F32 close, const SigmoidTable& table) noexcept {
+inline F32 refine(Coefficients& a, const F32 target[3], F32 close, F32 steep,
+                  const SigmoidTable& table) noexcept {
   SigmoidSums sums = sums_of(a, table);
   Residual left = residual(sums, target);
   F32 part(1.0F);
@@ -145,7 +148,7 @@ inline F32 refine(Coefficients& a, const F32 target[3], F32 close, const Sigmoid
     for (std::size_t k = 0; k < 3; ++k) trial.c[k] = a.c[k] + part * step.c[k];
     const SigmoidSums sums_there = sums_of(trial, table);
     const Residual left_there = residual(sums_there, target);
-    const Mask better = active & (left_there.size < left.size);
+    const Mask better = active & (left_there.size < left.size) & (length_of(trial) <= steep);
     for (std::size_t k = 0; k < 3; ++k) {
       a.c[k] = xsimd::select(better, trial.c[k], a.c[k]);
       left.r[k] = xsimd::select(better, left_there.r[k], left.r[k]);
@@ -203,6 +206,7 @@ struct SigmoidBatch {
   alignas(64) float c[3][kSigmoidBatch];
   alignas(64) float target[3][kSigmoidBatch];
   alignas(64) float close[kSigmoidBatch];
+  alignas(64) float steep[kSigmoidBatch];
   alignas(64) float left[kSigmoidBatch];
   alignas(64) std::uint16_t lane[kSigmoidBatch];
   std::size_t count = 0;
@@ -254,12 +258,13 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
   out.c[2] = xsimd::select(flat, known, out.c[2]);
   std::uint64_t waiting = lane_bits(finite & ~flat & ~last);
   if (waiting != 0) {
-    alignas(64) float values[7][kWidth];
+    alignas(64) float values[8][kWidth];
     for (std::size_t k = 0; k < 3; ++k) {
       store(values[k], out.c[k]);
       store(values[3 + k], target[k]);
     }
     store(values[6], close);
+    store(values[7], xsimd::select(inside, F32(kSigmoidFar), F32(kSigmoidSteep) / xsimd::sqrt(lit_z)));
     for (; waiting != 0; waiting &= waiting - 1) {
       const auto i = static_cast<std::size_t>(__builtin_ctzll(waiting));
       const std::size_t at = batch.count++;
@@ -268,6 +273,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
         batch.target[k][at] = values[3 + k][i];
       }
       batch.close[at] = values[6][i];
+      batch.steep[at] = values[7][i];
       batch.lane[at] = static_cast<std::uint16_t>(lane + i);
     }
   }
@@ -284,6 +290,7 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
       batch.target[k][at] = batch.target[k][from];
     }
     batch.close[at] = batch.close[from];
+    batch.steep[at] = batch.steep[from];
   }
   for (std::size_t at = 0; at < batch.count; at += kWidth) {
     Coefficients a;
@@ -292,7 +299,7 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
       a.c[k] = load(batch.c[k] + at);
       target[k] = load(batch.target[k] + at);
     }
-    store(batch.left + at, refine(a, target, load(batch.close + at), table));
+    store(batch.left + at, refine(a, target, load(batch.close + at), load(batch.steep + at), table));
     for (std::size_t k = 0; k < 3; ++k) store(batch.c[k] + at, a.c[k]);
   }
 }

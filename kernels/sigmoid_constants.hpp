@@ -27,8 +27,12 @@ inline constexpr float kSigmoidDark = 0.05F;
 inline constexpr float kSigmoidNear = 0.05F;
 /// A colour whose residual stays above this has no coefficients.
 inline constexpr float kSigmoidUnsolved = 1e-5F;
+/// Coefficients of colours outside the cube may sum to this, over the root of the largest component of the
+/// colour that the search starts from: beyond it a spectrum is a step between two bands, and no colour of a
+/// reflectance is much further out.
+inline constexpr float kSigmoidSteep = 256.0F;
 /// Evaluations at most, and the shortest part of a step that is tried.
-inline constexpr int kSigmoidSteps = 40;
+inline constexpr int kSigmoidSteps = 12;
 inline constexpr float kSigmoidShortest = 0x1p-12F;
 
 }  // namespace spectile::kernels

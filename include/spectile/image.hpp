@@ -46,6 +46,7 @@ enum class NonFinite {
 
 /// What to do with components of the input below 0, in the input's own RGB.
 enum class Negative {
+  kGamut,  ///< they are colours outside the method's gamut: see GamutPolicy
   kClip,  ///< they become 0, and their pixels are counted
   kKeep,  ///< they stay, and so do the samples below 0 that they make
   kStop,  ///< an error that names the first of them and their number
@@ -91,7 +92,7 @@ struct MethodOptions : ImageOptions {
   std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the white reflector; D65 where none
   Observer observer = Observer::kCie1931;
   std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
-  Negative negative = Negative::kClip;
+  Negative negative = Negative::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
   std::string layer;  ///< layer, view or part to take R, G, B from; empty for the plain ones
 };

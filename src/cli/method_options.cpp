@@ -53,8 +53,9 @@ void add_method_options(CLI::App& command, MethodArguments& a) {
       ->check(CLI::IsMember(rgb_space_names(), CLI::ignore_case));
   command
       .add_option("--negative", a.negative,
-                  "Components below 0 in the file: clip to 0, keep (samples may fall below 0 too) or stop")
-      ->check(CLI::IsMember({"clip", "keep", "stop"}))
+                  "Components below 0 in the file: gamut (treat them as colours out of gamut), clip to 0, keep "
+                  "(samples may fall below 0 too) or stop")
+      ->check(CLI::IsMember({"gamut", "clip", "keep", "stop"}))
       ->capture_default_str();
   command
       .add_option("--out-of-gamut", a.out_of_gamut,
@@ -88,7 +89,8 @@ int apply_method_options(const MethodArguments& a, MethodOptions& out) {
   }
   out.negative = a.negative == "keep"   ? Negative::kKeep
                  : a.negative == "stop" ? Negative::kStop
-                                        : Negative::kClip;
+                 : a.negative == "clip" ? Negative::kClip
+                                        : Negative::kGamut;
   if (!a.out_of_gamut.empty()) {
     out.out_of_gamut = a.out_of_gamut == "keep"    ? GamutPolicy::kKeep
                        : a.out_of_gamut == "error" ? GamutPolicy::kStop

@@ -15,7 +15,7 @@ struct MethodArguments {
   std::string light;
   std::string observer = "1931";
   std::string input_space;
-  std::string negative = "clip";
+  std::string negative = "gamut";
   std::string out_of_gamut;
   std::string layer;
 };

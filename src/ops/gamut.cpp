@@ -15,8 +15,8 @@ namespace {
 
 using kernels::kLanes;
 
-// Halvings of the way from grey: the place on it is then known to 2^-16.
-constexpr int kHalvings = 16;
+// Halvings of the way between the cube and the colour: the place on it is then known to 2^-8.
+constexpr int kHalvings = 8;
 
 struct Luminance {
   float weights[3];
@@ -103,6 +103,13 @@ void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
     const float v[3] = {group.target[0][i], group.target[1][i], group.target[2][i]};
     const float y = std::max(0.0F, luminance.of(v));
     grey[i] = bounded ? std::min(1.0F, y) : y;
+    // What is inside the cube has a sigmoid; a little less, for rounding.
+    float part = 1;
+    for (const float value : v) {
+      if (value < 0) part = std::min(part, grey[i] / (grey[i] - value));
+      if (bounded && value > 1) part = std::min(part, (1 - grey[i]) / (value - grey[i]));
+    }
+    low[i] = part * 0.999999F;
   }
   for (int step = 0; step < kHalvings; ++step) {
     for (std::size_t i = 0; i < kLanes; ++i) {

@@ -89,9 +89,9 @@ Result<BasisTable> exact_basis(Method method, Quantity quantity, const Bands& ba
   if (basis) return *std::move(basis);
   return make_error(ErrorCode::kBadArgument,
                     "{} has no spectra between 0 and 1 with the colours of this RGB space's corners over the "
-                    "bands {}; {}",
+                    "bands {}; sigmoid makes every colour that is possible{}",
                     to_string(method), bands.description(),
-                    bands.count() < 8 ? "smits takes any bands" : "sigmoid makes every colour that is possible");
+                    options.primaries == kRec709 ? ", smits takes any bands" : "");
 }
 
 }  // namespace

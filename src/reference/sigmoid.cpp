@@ -84,13 +84,15 @@ void newton_step(const Sums& sums, const float r[3], float step[3]) {
 }
 
 /// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
+float length_of(const float c[3]) {
+  return (std::abs(c[0]) + std::abs(c[1])) + std::abs(c[2]);
+}
 bool is_last(float size, const float step[3], float close) {
-  const float length = (std::abs(step[0]) + std::abs(step[1])) + std::abs(step[2]);
-  return size * length <= close && size <= kSigmoidNear;
+  return size * length_of(step) <= close && size <= kSigmoidNear;
 }
 
-/// Steps from start coefficients to those of the target; 0 where it got there, else the residual that is left.
-float refine(float c[3], const float target[3], float close, const SigmoidTable& table) {
+/// Steps from start coefficients, no further than to those of length `steep`, to those of the target; 0 where it got there, else the residual that is left.
+float refine(float c[3], const float target[3], float close, float steep, const SigmoidTable& table) {
   Sums sums = sums_of(c, table);
   float r[3];
   float size = residual(sums, target, r);
@@ -107,7 +109,7 @@ float refine(float c[3], const float target[3], float close, const SigmoidTable&
     const Sums sums_there = sums_of(trial, table);
     float r_there[3];
     const float size_there = residual(sums_there, target, r_there);
-    if (size_there < size) {
+    if (size_there < size && length_of(trial) <= steep) {
       std::copy(trial, trial + 3, c);
       std::copy(r_there, r_there + 3, r);
       sums = sums_there;
@@ -214,7 +216,8 @@ bool sigmoid_coefficients(float c[3], const float rgb[3], const SigmoidTable& ta
     for (std::size_t k = 0; k < 3; ++k) c[k] = near ? c[k] + step[k] : c[k];
     const float close = kSigmoidClose * (z < kSigmoidDark ? kSigmoidDark : z);
     const bool last = inside && near && is_last(size, step, close);
-    if (!last) solved = refine(c, target, close, table) <= kSigmoidUnsolved;
+    const float steep = inside ? kSigmoidFar : kSigmoidSteep / std::sqrt(black ? 0.5F : z);
+    if (!last) solved = refine(c, target, close, steep, table) <= kSigmoidUnsolved;
   }
   for (std::size_t k = 0; k < 3; ++k) c[k] = bright ? -c[k] : c[k];
   return solved;

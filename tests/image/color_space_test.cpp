@@ -32,12 +32,14 @@ test::Picture flat(const Triple& color) {
 
 class ColorSpaces : public testing::Test {
  protected:
-  Result<ImageReport> convert(test::Picture picture, Quantity quantity, Negative negative = Negative::kClip) {
+  Result<ImageReport> convert(test::Picture picture, Quantity quantity, Negative negative = Negative::kGamut,
+                              std::optional<GamutPolicy> gamut = std::nullopt) {
     test::write_scanlines(folder_ / "in.exr", picture);
     UpsampleImageOptions options;
     options.pixel = PixelType::kFloat;
     options.quantity = quantity;
     options.negative = negative;
+    options.out_of_gamut = gamut;
     // Wide enough that what the bands cut off does not matter.
     options.bands = *Bands::uniform(380, 780, 5);
     return upsample_image(folder_ / "in.exr", folder_ / "out.exr", options);
@@ -164,9 +166,10 @@ TEST_F(ColorSpaces, InteropIdWinsOverChromaticities) {
 TEST_F(ColorSpaces, ColorsOutsideSrgbAreCounted) {
   const auto report = convert(with(flat({0, 1, 0}), "lin_rec2020_scene"), Quantity::kReflectance);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->negative_pixels, 6U);
-  const auto stopped =
-      convert(with(flat({0, 1, 0}), "lin_rec2020_scene"), Quantity::kReflectance, Negative::kStop);
+  EXPECT_EQ(report->negative_pixels, 0U);
+  EXPECT_EQ(report->out_of_gamut_pixels, 6U);
+  const auto stopped = convert(with(flat({0, 1, 0}), "lin_rec2020_scene"), Quantity::kReflectance,
+                               Negative::kGamut, GamutPolicy::kStop);
   EXPECT_FALSE(stopped);
 }
 

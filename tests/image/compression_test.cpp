@@ -47,6 +47,7 @@ class Compressions : public testing::Test {
                         Quantity quantity = Quantity::kReflectance, const char* bands = "400:700:37.5") {
     UpsampleImageOptions options;
     options.compression = compression;
+    options.method = Method::kSmits;  // which takes bands as wide as these
     options.pixel = pixel;
     options.quantity = quantity;
     options.bands = *Bands::parse(bands);
