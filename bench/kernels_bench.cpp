@@ -1,19 +1,18 @@
 // One thread, 60 bands: the library against the textbook's way and against this machine's own limits, in one
 // run, its benchmarks interleaved at random, with the error against double beside every speed.
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <map>
 #include <random>
 #include <spectile/spectile.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/machine.hpp"
+#include "bench/report.hpp"
 #include "bench/textbook.hpp"
 #include "src/data/tables.hpp"
 #include "src/reference/oracle/oracle.hpp"
@@ -21,6 +20,8 @@
 namespace {
 
 using namespace spectile;
+using report::Line;
+using report::need;
 
 constexpr std::size_t kBands = 60;
 // 46 blocks of 15 KiB: with their RGB or XYZ within a second-level cache of 1 MiB and more.
@@ -32,22 +33,6 @@ constexpr std::size_t kHalfLanes = kLanes / 2 / kLanesPerBlock * kLanesPerBlock;
 constexpr std::size_t kLargeLanes = (std::size_t{1} << 30) / (kBands * sizeof(float)) / 4096 * 4096;
 
 const Execution kOneThread = {1, std::size_t{1} << 31};
-
-template <class T>
-T need(Result<T> result) {
-  if (!result) {
-    fmt::print(stderr, "{}\n", result.error().message);
-    std::exit(1);
-  }
-  return *std::move(result);
-}
-
-void need(Result<void> result) {
-  if (!result) {
-    fmt::print(stderr, "{}\n", result.error().message);
-    std::exit(1);
-  }
-}
 
 ColorLanes random_rgb(std::size_t lanes) {
   ColorLanes rgb = need(ColorLanes::create(lanes));
@@ -121,18 +106,6 @@ Bench& bench() {
   static Bench* const instance = new Bench;
   return *instance;
 }
-
-/// One line of the result.
-struct Line {
-  std::string name;
-  double items = 0;  // a call
-  double bytes = 0;  // a call
-  void (*run)() = nullptr;
-  double (*error)() = nullptr;  // relative, against double
-  std::string baseline;         // line that it is compared with
-  bool by_bytes = false;        // compare bytes a second rather than items a second
-  double target = 0;            // least ratio to the baseline; 0 for none
-};
 
 double error_of_upsampling(const std::function<float(std::size_t, std::size_t)>& sample) {
   Bench& s = bench();
@@ -258,89 +231,11 @@ std::vector<Line> lines() {
   };
 }
 
-/// Collects the real time of every repetition by benchmark.
-class Collector : public benchmark::BenchmarkReporter {
- public:
-  bool ReportContext(const Context& /*context*/) override { return true; }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-      seconds_[run.run_name.function_name].push_back(run.real_accumulated_time /
-                                                     static_cast<double>(run.iterations));
-    }
-  }
-  /// Median and half the distance between the quartiles, seconds a call.
-  std::pair<double, double> median(const std::string& name) {
-    std::vector<double>& s = seconds_[name];
-    std::sort(s.begin(), s.end());
-    if (s.empty()) return {0, 0};
-    return {s[s.size() / 2], 0.5 * (s[s.size() * 3 / 4] - s[s.size() / 4])};
-  }
-
- private:
-  std::map<std::string, std::vector<double>> seconds_;
-};
-
-int report(Collector& collector, const std::vector<Line>& all) {
-  fmt::print(
-      "one thread, {} bands, kernels {}, {} lanes in L2, {} lanes in DRAM; medians of interleaved "
-      "repetitions\n\n",
-      kBands, need(active_isa()), kLanes, kLargeLanes);
-  fmt::print("{:<26} {:>9} {:>8} {:>7} {:>9}  {:<34} {:>7} {:>6}\n", "", "Mpixel/s", "GB/s", "spread",
-             "error", "compared with", "ratio", "target");
-  int missed = 0;
-  for (const Line& line : all) {
-    const auto [seconds, spread] = collector.median(line.name);
-    if (seconds == 0) continue;
-    std::string error = "-";
-    if (line.error != nullptr) {
-      line.run();
-      error = fmt::format("{:.1e}", line.error());
-    }
-    fmt::print("{:<26} {:>9.1f} {:>8.2f} {:>6.1f}% {:>9}", line.name, line.items / seconds * 1e-6,
-               line.bytes / seconds * 1e-9, 100 * spread / seconds, error);
-    if (!line.baseline.empty()) {
-      const auto other =
-          std::find_if(all.begin(), all.end(), [&](const Line& l) { return l.name == line.baseline; });
-      const double base = collector.median(line.baseline).first;
-      const double ours = (line.by_bytes ? line.bytes : line.items) / seconds;
-      const double theirs = (line.by_bytes ? other->bytes : other->items) / base;
-      fmt::print("  {:<34} {:>7.2f}", line.baseline + (line.by_bytes ? ", bytes/s" : ", items/s"),
-                 ours / theirs);
-      if (line.target > 0) {
-        const bool met = ours / theirs >= line.target;
-        missed += met ? 0 : 1;
-        fmt::print(" {:>6.2f} {}", line.target, met ? "met" : "MISSED");
-      }
-    }
-    fmt::print("\n");
-  }
-  return missed == 0 ? 0 : 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> arguments(argv, argv + argc);
-  // Interleaved by default, so that other load on the machine meets all alike.
-  arguments.insert(arguments.begin() + 1, {"--benchmark_repetitions=15", "--benchmark_min_time=0.05",
-                                           "--benchmark_enable_random_interleaving=true"});
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  int count = static_cast<int>(pointers.size());
-  benchmark::Initialize(&count, pointers.data());
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
-  const std::vector<Line> all = lines();
-  for (const Line& line : all) {
-    benchmark::RegisterBenchmark(line.name.c_str(), [run = line.run](benchmark::State& state) {
-      for (auto _ : state) {
-        run();
-        benchmark::ClobberMemory();
-      }
-    })->UseRealTime();
-  }
   bench();
-  Collector collector;
-  benchmark::RunSpecifiedBenchmarks(&collector);
-  return report(collector, all);
+  return report::run(argc, argv, lines(),
+                     fmt::format("one thread, {} bands, kernels {}, {} lanes in L2, {} lanes in DRAM", kBands,
+                                 need(active_isa()), kLanes, kLargeLanes));
 }

@@ -1,6 +1,8 @@
 // This machine's own limits, compiled with -O3 -march=native.
 #include "bench/machine.hpp"
 
+#include <cmath>
+
 #include <algorithm>
 #include <cstring>
 
@@ -94,5 +96,19 @@ void fill(float* dst, float value, std::size_t n) {
 }
 
 #endif
+
+float multiply_adds(std::size_t n) {
+  // As many independent chains as hide the latency: 16 vectors of up to 16 floats.
+  constexpr std::size_t kChains = 256;
+  float v[kChains];
+  for (std::size_t i = 0; i < kChains; ++i) v[i] = static_cast<float>(i) * 1e-3F;
+  for (std::size_t step = 0; step < n / kChains; ++step) {
+#pragma GCC unroll 256
+    for (std::size_t i = 0; i < kChains; ++i) v[i] = std::fma(v[i], 0.999F, 1e-3F);
+  }
+  float sum = 0;
+  for (const float x : v) sum += x;
+  return sum;
+}
 
 }  // namespace machine

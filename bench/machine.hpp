@@ -13,4 +13,7 @@ void stream_fill(float* dst, float value, std::size_t n);
 /// Fills n floats with ordinary stores.
 void fill(float* dst, float value, std::size_t n);
 
+/// n fused multiply-adds on floats, as many at a time as the compiler can; returns a sum of them.
+float multiply_adds(std::size_t n);
+
 }  // namespace machine

@@ -152,6 +152,19 @@ void luminance(const Tables& tables, const SampledSpectrum* in, float* y, std::s
   }
 }
 
+void relight(const Tables& tables, const SampledSpectrum& light, const float* matrix, const float* rgb,
+             float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const SampledSpectrum lit = from_rgb(tables, rgb + 3 * i) * light;
+    float xyz[3];
+    project(tables, &lit, xyz, 1);
+    for (int k = 0; k < 3; ++k) {
+      out[3 * i + static_cast<std::size_t>(k)] =
+          matrix[3 * k] * xyz[0] + matrix[3 * k + 1] * xyz[1] + matrix[3 * k + 2] * xyz[2];
+    }
+  }
+}
+
 void multiply(const SampledSpectrum* a, const SampledSpectrum* b, SampledSpectrum* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) out[i] = a[i] * b[i];
 }
