@@ -63,7 +63,7 @@ class Projector {
 
 /// Projects spectra to CIE XYZ.
 /// Shapes: spectra [block][band][64]; xyz three times [lanes].
-/// Numbers: sums in ascending band order, relative error at most (bands + 2) * 2^-24 of the sum of
+/// Numbers: sums in runs of eight bands, relative error at most (bands / 8 + 11) * 2^-24 of the sum of
 /// magnitudes; NaN and infinities go through. Errors: kBandsMismatch when the projector was built for other
 /// bands; kSizeMismatch.
 Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
