@@ -99,8 +99,8 @@ std::array<double, 3> relit(const Way& way, const std::array<double, 3>& rgb) {
   Bench& s = bench();
   std::vector<double> spectrum(kBands);
   if (way.upsampler.method() == Method::kSigmoid) {
-    static const WorkingSpace space =
-        need(working_space(s.bands, Quantity::kReflectance, kRec709, need(illuminant("D65")), Observer::kCie1931));
+    static const WorkingSpace space = need(
+        working_space(s.bands, Quantity::kReflectance, kRec709, need(illuminant("D65")), Observer::kCie1931));
     static const SigmoidSums sums(s.bands, space);
     Triple c{};
     sums.solve_from_grey(rgb, c);
@@ -210,7 +210,8 @@ std::vector<Line> lines() {
        "textbook relight", false, 80},
       {"relight sigmoid", n, n * 24, run_relight<&Bench::sigmoid>, error_of_relight<&Bench::sigmoid>,
        "textbook relight", false, 0},
-      {"upsample smits", n, n * (spectrum + 12), run_upsample<&Bench::smits>, error_of_round_trip, "", false, 0},
+      {"upsample smits", n, n * (spectrum + 12), run_upsample<&Bench::smits>, error_of_round_trip, "", false,
+       0},
       {"upsample smits-exact", n, n * (spectrum + 12), run_upsample<&Bench::exact>, error_of_round_trip,
        "upsample smits", false, 0.95},
       {"upsample mallett", n, n * (spectrum + 12), run_upsample<&Bench::mallett>, error_of_round_trip,

@@ -6,7 +6,8 @@
 // The texture is IMAGE repeated over SIZE x SIZE pixels, or a procedural one. For each compression, runs
 // alternate between the tool (whole process: start, reading, arithmetic, encoding, writing) and OpenEXR's C++
 // library with as many threads (from planes in memory, touched before, to a closed file). Medians, their
-// ratio, and the tool's peak memory are printed. SPECTILE_BENCH_COMPRESSION=NAME measures one compression only.
+// ratio, and the tool's peak memory are printed. SPECTILE_BENCH_COMPRESSION=NAME measures one compression
+// only.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

@@ -1,9 +1,8 @@
 // This machine's own limits, compiled with -O3 -march=native.
 #include "bench/machine.hpp"
 
-#include <cmath>
-
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #if defined(__x86_64__)

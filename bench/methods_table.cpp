@@ -1,5 +1,6 @@
 // What each method costs in error, as the tables of docs/methods.md: round trips over the cube, gamuts, and
-// measured reflectances under other lights. usage: spectile_bench_methods [FOLDER with the measured reflectances]
+// measured reflectances under other lights. usage: spectile_bench_methods [FOLDER with the measured
+// reflectances]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -92,7 +93,8 @@ void print_round_trips() {
     rgb.at(i, 2) = static_cast<float>(i / kSide / kSide) / (kSide - 1);
   }
   fmt::print("Round trip of a 65 x 65 x 65 grid of linear sRGB, 60 bands, float throughout\n\n");
-  fmt::print("| method | largest error of a channel | CIEDE2000 mean, max | samples | roughness mean, max |\n");
+  fmt::print(
+      "| method | largest error of a channel | CIEDE2000 mean, max | samples | roughness mean, max |\n");
   fmt::print("|---|---:|---:|---|---:|\n");
   for (const std::string& name : method_names()) {
     const Upsampler upsampler =
@@ -122,8 +124,8 @@ void print_round_trips() {
       }
       rough.add(std::sqrt(roughness(bands, spectrum)));
     }
-    fmt::print("| `{}` | {:.1e} | {:.1e}, {:.1e} | {:.3g} to {:.6g} | {:.3f}, {:.3f} |\n", name, error, color.mean(),
-               color.most(), low, high, rough.mean(), rough.most());
+    fmt::print("| `{}` | {:.1e} | {:.1e}, {:.1e} | {:.3g} to {:.6g} | {:.3f}, {:.3f} |\n", name, error,
+               color.mean(), color.most(), low, high, rough.mean(), rough.most());
   }
   fmt::print("\nRoughness: root of the sum of squared second differences over the bands.\n\n");
 }
@@ -134,17 +136,17 @@ void print_gamuts() {
   const Bands bands;
   const Projector d65 = need(Projector::reflective(bands, need(illuminant("D65"))));
   const Matrix3 to_xyz = inverse(d65.xyz_to_srgb());
-  fmt::print("Reflectances: share of a 33 x 33 x 33 grid that each method makes, and what moving the others along "
-             "their dominant wavelength costs, CIEDE2000 mean (of those moved), max\n\n| input space |");
+  fmt::print(
+      "Reflectances: share of a 33 x 33 x 33 grid that each method makes, and what moving the others along "
+      "their dominant wavelength costs, CIEDE2000 mean (of those moved), max\n\n| input space |");
   const std::vector<std::string> methods = {"smits-exact", "sigmoid"};
   for (const std::string& name : methods) fmt::print(" `{}` covers | costs |", name);
   fmt::print("\n|---|---:|---:|---:|---:|\n");
   for (const char* space_name : {"srgb", "display-p3", "adobe-rgb", "rec2020", "acescg", "aces2065-1"}) {
     const RgbSpace space = need(rgb_space(space_name));
-    const Matrix3 adapt = adaptation_matrix(Adaptation::kBradford, xyz_of(space.chromaticities.white),
-                                            xyz_of(kRec709.white));
-    const Matrix3 matrix =
-        product(xyz_to_srgb_matrix(), product(adapt, rgb_to_xyz(space.chromaticities)));
+    const Matrix3 adapt =
+        adaptation_matrix(Adaptation::kBradford, xyz_of(space.chromaticities.white), xyz_of(kRec709.white));
+    const Matrix3 matrix = product(xyz_to_srgb_matrix(), product(adapt, rgb_to_xyz(space.chromaticities)));
     fmt::print("| {} |", space_name);
     for (const std::string& name : methods) {
       const Upsampler upsampler =
@@ -153,9 +155,9 @@ void print_gamuts() {
       std::vector<std::array<double, 3>> before(kColors);
       for (std::size_t i = 0; i < kColors; ++i) {
         const double side = kSide - 1;
-        before[i] = times(matrix, {static_cast<double>(i % kSide) / side,
-                                   static_cast<double>(i / kSide % kSide) / side,
-                                   static_cast<double>(i / kSide / kSide) / side});
+        before[i] = times(
+            matrix, {static_cast<double>(i % kSide) / side, static_cast<double>(i / kSide % kSide) / side,
+                     static_cast<double>(i / kSide / kSide) / side});
         // A rounding error outside the cube is inside.
         for (std::size_t k = 0; k < 3; ++k) {
           const double v = std::abs(before[i][k]) < 1e-7 ? 0.0 : before[i][k];
@@ -186,8 +188,7 @@ void print_relighting(const std::vector<Named>& measured, const std::string& wha
   std::map<std::string, std::map<std::string, Statistics>> found;
   std::size_t inside = 0;
   for (const Named& one : measured) {
-    SampledSpectra truth = need(
-        SampledSpectra::broadcast(bands, 1, one.spectrum.average_over(bands)));
+    SampledSpectra truth = need(SampledSpectra::broadcast(bands, 1, one.spectrum.average_over(bands)));
     const auto seen = [&](const Projector& under, const SampledSpectra& spectra) {
       std::array<double, 3> xyz{};
       for (std::size_t b = 0; b < bands.count(); ++b) {
@@ -198,7 +199,8 @@ void print_relighting(const std::vector<Named>& measured, const std::string& wha
       return xyz;
     };
     const auto color = times(d65.xyz_to_srgb(), seen(d65, truth));
-    if (*std::min_element(color.begin(), color.end()) < 0 || *std::max_element(color.begin(), color.end()) > 1)
+    if (*std::min_element(color.begin(), color.end()) < 0 ||
+        *std::max_element(color.begin(), color.end()) > 1)
       continue;
     ++inside;
     ColorLanes rgb = need(ColorLanes::create(1));
@@ -217,8 +219,9 @@ void print_relighting(const std::vector<Named>& measured, const std::string& wha
       }
     }
   }
-  fmt::print("{}: {} of {} are inside sRGB under D65; CIEDE2000 mean, max of the upsampled under other lights\n\n",
-             what, inside, measured.size());
+  fmt::print(
+      "{}: {} of {} are inside sRGB under D65; CIEDE2000 mean, max of the upsampled under other lights\n\n",
+      what, inside, measured.size());
   fmt::print("| method |");
   for (const std::string& light : lights) fmt::print(" {} |", light);
   fmt::print(" mean of all |\n|---|---:|---:|---:|---:|---:|---:|\n");

@@ -51,8 +51,8 @@ int print(Collector& collector, const std::vector<Line>& all, const std::string&
       error = fmt::format("{:.1e}", line.error());
     }
     const double ns = seconds / line.items * 1e9;
-    fmt::print("{:<28} {:>9.1f} {:>8.2f} {:>8.2f} {:>6.1f}% {:>9}", line.name, line.items / seconds * 1e-6, ns,
-               line.bytes / seconds * 1e-9, 100 * spread / seconds, error);
+    fmt::print("{:<28} {:>9.1f} {:>8.2f} {:>8.2f} {:>6.1f}% {:>9}", line.name, line.items / seconds * 1e-6,
+               ns, line.bytes / seconds * 1e-9, 100 * spread / seconds, error);
     if (!line.baseline.empty()) {
       const auto other =
           std::find_if(all.begin(), all.end(), [&](const Line& l) { return l.name == line.baseline; });
@@ -61,9 +61,11 @@ int print(Collector& collector, const std::vector<Line>& all, const std::string&
       const double theirs = (line.by_bytes ? other->bytes : other->items) / base;
       fmt::print("  {:<36} {:>7.2f}", line.baseline + (line.by_bytes ? ", bytes/s" : ", items/s"),
                  ours / theirs);
-      if (line.target > 0) fmt::print(" {:>6.2f} {}", line.target, verdict(ours / theirs >= line.target, missed));
+      if (line.target > 0)
+        fmt::print(" {:>6.2f} {}", line.target, verdict(ours / theirs >= line.target, missed));
     }
-    if (line.most_ns > 0) fmt::print("  at most {:.1f} ns {}", line.most_ns, verdict(ns <= line.most_ns, missed));
+    if (line.most_ns > 0)
+      fmt::print("  at most {:.1f} ns {}", line.most_ns, verdict(ns <= line.most_ns, missed));
     fmt::print("\n");
   }
   return missed == 0 ? 0 : 1;

@@ -28,8 +28,8 @@ void upsample_fused(const Tables& tables, const float* rgb, SampledSpectrum* out
 void project(const Tables& tables, const SampledSpectrum* in, float* xyz, std::size_t n);
 /// n spectra to n luminances.
 void luminance(const Tables& tables, const SampledSpectrum* in, float* y, std::size_t n);
-/// Linear RGB of n pixels to linear RGB under a light: each upsampled, multiplied by the light, projected with
-/// the matching functions x, y, z, and taken through a 3 x 3 matrix.
+/// Linear RGB of n pixels to linear RGB under a light: each upsampled, multiplied by the light, projected
+/// with the matching functions x, y, z, and taken through a 3 x 3 matrix.
 void relight(const Tables& tables, const SampledSpectrum& light, const float* matrix, const float* rgb,
              float* out, std::size_t n);
 /// out = a * b, spectrum by spectrum.

@@ -5,8 +5,8 @@
 //    [blocks][bands][kLanes].
 //  - `dst` may be the same array as a source, never a shifted overlap of it.
 //  - Formulas are evaluated as written: one rounding per operation, no contraction. Sums over bands are taken
-//    in ascending order within runs of kSumRun bands, and the runs' sums are added in ascending order, each sum
-//    starting from 0. Therefore every table gives the same bits.
+//    in ascending order within runs of kSumRun bands, and the runs' sums are added in ascending order, each
+//    sum starting from 0. Therefore every table gives the same bits.
 //  - NaN goes through arithmetic as IEEE 754 says (its payload is not specified).
 #pragma once
 
@@ -35,8 +35,8 @@ struct RgbScan {
   float maximum = 0;            ///< largest component above 0; NaN passed over
 };
 
-/// Floats of a sigmoid's row: for each of red, green, blue four times its weight times lambda^2, lambda, 1; then
-/// lambda itself, the white's sample and a 0.
+/// Floats of a sigmoid's row: for each of red, green, blue four times its weight times lambda^2, lambda, 1;
+/// then lambda itself, the white's sample and a 0.
 inline constexpr std::size_t kSigmoidRow = 12;
 inline constexpr std::size_t kSigmoidLambda = 9;
 inline constexpr std::size_t kSigmoidWhite = 10;
@@ -140,7 +140,8 @@ struct KernelTable {
   /// and 1, 1, 1 give exactly 0 and 1; a component that is not finite gives NaN. n a multiple of kLanes.
   void (*sigmoid_solve)(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
                         std::uint64_t* unsolved, std::size_t n) noexcept;
-  /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its white
+  /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its
+  /// white
   void (*sigmoid_blocks)(float* dst, const float* const c[3], const float* scale, const float* rows,
                          bool white, std::size_t bands, std::size_t blocks, bool stream) noexcept;
   /// out[band] takes n floats, at any address, for any n; c, scale readable up to n rounded up to kLanes
@@ -155,8 +156,8 @@ struct KernelTable {
 
   // Gamut.
   /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance
-  /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others and
-  /// NaN stay as they are. Bit i of moved[i / kLanes]: it was outside.
+  /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others
+  /// and NaN stay as they are. Bit i of moved[i / kLanes]: it was outside.
   void (*limit_gamut)(float* const rgb[3], const float weights[3], float lowest, float highest,
                       std::uint64_t* moved, std::size_t n) noexcept;
 

@@ -17,8 +17,8 @@ void limit_gamut(float* const rgb[3], const float weights[3], float lowest, floa
       const std::size_t at = block * kLanes + lane;
       F32 v[3];
       for (std::size_t k = 0; k < 3; ++k) v[k] = load(rgb[k] + at);
-      const Mask outside = (v[0] < low) | (v[1] < low) | (v[2] < low) | (high < v[0]) | (high < v[1]) |
-                           (high < v[2]);
+      const Mask outside =
+          (v[0] < low) | (v[1] < low) | (v[2] < low) | (high < v[0]) | (high < v[1]) | (high < v[2]);
       const std::uint64_t bits = lane_bits(outside);
       if (bits == 0) continue;
       outside_lanes |= bits << lane;

@@ -4,8 +4,9 @@
 #include "kernels/convert.inl"
 #include "kernels/exponential.inl"
 #include "kernels/gamut.inl"
-#include "kernels/upsample.inl"
 #include "kernels/sigmoid.inl"
+#include "kernels/sigmoid_search.inl"
+#include "kernels/upsample.inl"
 
 #if defined(SPECTILE_KERNEL_AVX512)
 #define SPECTILE_KERNEL_NAME avx512

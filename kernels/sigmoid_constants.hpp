@@ -5,21 +5,29 @@
 
 namespace spectile::kernels {
 
-/// Half the inverse square root: a guess from this less half the bits, a step of third order and one of second.
-/// The guess and the two constants of the first step make its largest error least, 1.7e-4 (found by search;
-/// starting from Lomont, Fast Inverse Square Root, 2003, and the series 15/8 - 10/8 e + 3/8 e^2, scaled so that
-/// its last coefficient is 1); the constant of the second is 3/4 of the cube root of 4, which makes its other
-/// coefficient 1.
+/// Half the inverse square root: a guess from this less half the bits, a step of third order and one of
+/// second. The guess and the two constants of the first step make its largest error least, 1.7e-4 (found by
+/// search; starting from Lomont, Fast Inverse Square Root, 2003, and the series 15/8 - 10/8 e + 3/8 e^2,
+/// scaled so that its last coefficient is 1); the constant of the second is 3/4 of the cube root of 4, which
+/// makes its other coefficient 1.
 inline constexpr std::uint32_t kRootGuess = 0x5F021E39U;
 inline constexpr float kRootFirst = 1.57632448F;
 inline constexpr float kRootSecond = 1.87161556F;
 inline constexpr float kRootThird = 1.19055079F;
 
-/// Largest component below which a colour counts as black.
-inline constexpr float kSigmoidBlack = 0x1p-40F;
+/// Largest component below which a colour counts as black: less than a sample's rounding.
+inline constexpr float kSigmoidBlack = 0x1p-25F;
+/// A residual below this is as good as the samples' rounding lets it be.
+inline constexpr float kSigmoidFloor = 0x1p-25F;
+/// Colours darker than this whose first step does not suffice are searched from above: four times as bright as
+/// often as it takes to reach it, then down again, a quarter at a time. Towards black a sigmoid is a quarter of
+/// the inverse square of its polynomial, so twice the coefficients are a start for a quarter of the colour,
+/// even for dark purples, whose spectra rise at both ends.
+inline constexpr float kSigmoidLit = 0x1p-6F;
+inline constexpr int kSigmoidLevels = 10;
 /// A step is the last where the residual times the step's length is below this part of the colour's largest
-/// component (or of kSigmoidDark, if that is more): the error that it leaves was found to be at most 2.7 times
-/// that product, below rounding.
+/// component (or of kSigmoidDark, if that is more): the error that it leaves was found to be at most 2.7
+/// times that product, below rounding.
 inline constexpr float kSigmoidClose = 5e-7F;
 inline constexpr float kSigmoidDark = 0.05F;
 /// Steps count as good, and the first one is taken, only from this near; the first relative to the largest
@@ -31,8 +39,9 @@ inline constexpr float kSigmoidUnsolved = 1e-5F;
 /// colour that the search starts from: beyond it a spectrum is a step between two bands, and no colour of a
 /// reflectance is much further out.
 inline constexpr float kSigmoidSteep = 256.0F;
-/// Evaluations at most, and the shortest part of a step that is tried.
-inline constexpr int kSigmoidSteps = 12;
+/// Evaluations at most, outside the cube and inside it, and the shortest part of a step that is tried.
+inline constexpr int kSigmoidStepsOutside = 12;
+inline constexpr int kSigmoidSteps = 80;
 inline constexpr float kSigmoidShortest = 0x1p-12F;
 
 }  // namespace spectile::kernels

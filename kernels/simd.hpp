@@ -343,8 +343,8 @@ inline F32 fused_minus(F32 a, F32 b, F32 c) {
 }
 #else
 // SSE4.2 has no such instruction. In double the product is exact; the sum is rounded to odd, so that rounding
-// it to float is as rounding the exact value. Source: Boldo, Melquiond, Emulation of FMA and correctly rounded
-// sums, IEEE Transactions on Computers 57(4), 2008.
+// it to float is as rounding the exact value. Source: Boldo, Melquiond, Emulation of FMA and correctly
+// rounded sums, IEEE Transactions on Computers 57(4), 2008.
 inline __m128d sum_to_odd(__m128d product, __m128d c) {
   const __m128d sum = _mm_add_pd(product, c);
   const __m128d part = _mm_sub_pd(sum, product);

@@ -13,7 +13,8 @@ namespace {
 
 using namespace spectile;
 
-// Nodes of the start table along each axis: enough that the double search from the nearest one always arrives.
+// Nodes of the start table along each axis: enough that the double search from the nearest one always
+// arrives.
 constexpr int kStartSteps = 6;
 
 std::string table(const std::string& name, const BasisTable& rows) {
@@ -43,7 +44,8 @@ std::string list(const std::string& name, const std::vector<double>& values) {
 std::string file(const std::string& purpose, const std::string& tables, const std::string& definitions) {
   return purpose +
          "// Computed by tools/generate_tables.cpp; do not edit.\n"
-         "#include \"src/data/tables.hpp\"\n\nnamespace spectile::data {\nnamespace {\n\n// clang-format off\n" +
+         "#include \"src/data/tables.hpp\"\n\nnamespace spectile::data {\nnamespace {\n\n// clang-format "
+         "off\n" +
          tables + "// clang-format on\n\n}  // namespace\n\n" + definitions +
          "\n}  // namespace spectile::data\n";
 }
@@ -66,7 +68,8 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   std::ofstream(folder + "/exact_bases.cpp") << file(
-      "// Basis spectra whose colours are exactly the corners of the sRGB cube, for 400:700:5, D65, CIE 1931:\n"
+      "// Basis spectra whose colours are exactly the corners of the sRGB cube, for 400:700:5, D65, CIE "
+      "1931:\n"
       "// the smoothest ones, and those of Mallett and Yuksel made exact.\n",
       table("kSmoothest", *exact) + "\n" + table("kPrimaries", *primaries),
       "const BasisRows kSmitsExact = kSmoothest;\nconst BasisRows kMallettExact = kPrimaries;\n");

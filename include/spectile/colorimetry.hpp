@@ -38,10 +38,11 @@ class Projector {
   Observer observer() const noexcept { return observer_; }
   /// XYZ of a spectrum that is 1 in every band: the white; its Y is 1.
   std::array<double, 3> white() const noexcept;
-  /// This projector's XYZ to linear sRGB, such that D65 is exactly RGB 1, 1, 1 as these bands and this observer
-  /// see it: a white reflector under D65, or D65 itself scaled to Y = 1. So bands that cut off part of the
-  /// visible range do not tint white, and a method's RGB comes back exactly. Where they cut off so much that
-  /// D65 is more than 10 % off in a component, it is xyz_to_srgb_matrix(). Other lights are not adapted.
+  /// This projector's XYZ to linear sRGB, such that D65 is exactly RGB 1, 1, 1 as these bands and this
+  /// observer see it: a white reflector under D65, or D65 itself scaled to Y = 1. So bands that cut off part
+  /// of the visible range do not tint white, and a method's RGB comes back exactly. Where they cut off so
+  /// much that D65 is more than 10 % off in a component, it is xyz_to_srgb_matrix(). Other lights are not
+  /// adapted.
   const Matrix3& xyz_to_srgb() const noexcept { return xyz_to_srgb_; }
   /// Shapes: [bands][3], in double before rounding to the kernels' float.
   std::span<const std::array<double, 3>> weights() const noexcept { return weights_; }

@@ -38,7 +38,8 @@ struct Compression {
   std::string description() const;
 };
 
-/// What to do with pixels that hold NaN, infinities, or components beyond 2^124, whose spectra could overflow.
+/// What to do with pixels that hold NaN, infinities, or components beyond 2^124, whose spectra could
+/// overflow.
 enum class NonFinite {
   kStop,  ///< an error that names the first of them and their number
   kZero,  ///< the whole pixel becomes black, and is counted
@@ -47,9 +48,9 @@ enum class NonFinite {
 /// What to do with components of the input below 0, in the input's own RGB.
 enum class Negative {
   kGamut,  ///< they are colours outside the method's gamut: see GamutPolicy
-  kClip,  ///< they become 0, and their pixels are counted
-  kKeep,  ///< they stay, and so do the samples below 0 that they make
-  kStop,  ///< an error that names the first of them and their number
+  kClip,   ///< they become 0, and their pixels are counted
+  kKeep,   ///< they stay, and so do the samples below 0 that they make
+  kStop,   ///< an error that names the first of them and their number
 };
 
 /// What to do with colours that the method cannot make, once they are in its RGB.
@@ -128,8 +129,8 @@ struct RelightImageOptions : MethodOptions {
 struct ProjectImageOptions : ImageOptions {
   ColorTarget target = ColorTarget::kSrgb;
   Observer observer = Observer::kCie1931;
-  std::optional<MeasuredSpectrum> light;  ///< for reflectances; D65 where none is given
-  std::optional<Quantity> quantity;       ///< which to take where a file holds both
+  std::optional<MeasuredSpectrum> light;      ///< for reflectances; D65 where none is given
+  std::optional<Quantity> quantity;           ///< which to take where a file holds both
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
 };
 
@@ -139,11 +140,11 @@ struct ImageReport {
   int height = 0;
   std::size_t bands = 0;
   Quantity quantity = Quantity::kReflectance;
-  std::uint64_t nonfinite_pixels = 0;  ///< replaced by black
-  std::uint64_t negative_pixels = 0;   ///< with a component below 0 (of the input, before clipping)
-  std::uint64_t over_one_pixels = 0;   ///< with a component above 1
+  std::uint64_t nonfinite_pixels = 0;     ///< replaced by black
+  std::uint64_t negative_pixels = 0;      ///< with a component below 0 (of the input, before clipping)
+  std::uint64_t over_one_pixels = 0;      ///< with a component above 1
   std::uint64_t out_of_gamut_pixels = 0;  ///< that the method cannot make, before they were moved
-  std::uint64_t limited_pixels = 0;    ///< with a sample beyond the largest half, written as that
+  std::uint64_t limited_pixels = 0;       ///< with a sample beyond the largest half, written as that
   std::uint64_t bytes_written = 0;
   double seconds = 0;
   std::string color_space;         ///< what the input's RGB was taken for
@@ -158,10 +159,10 @@ struct ImageReport {
 ///
 /// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or
 /// without chroma. RGB is linear, of the space that the options or the attributes colorInteropID or
-/// chromaticities name, else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's white
-/// to D65, so that RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it was.
-/// Output: the layout of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021; or, as coefficients, the float channels
-/// spectile.c0, c1, c2 (and spectile.scale) with attributes that say how to expand them.
+/// chromaticities name, else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's
+/// white to D65, so that RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it
+/// was. Output: the layout of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021; or, as coefficients, the float
+/// channels spectile.c0, c1, c2 (and spectile.scale) with attributes that say how to expand them.
 Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
                                    const UpsampleImageOptions& options = {});
 
@@ -177,8 +178,8 @@ Result<ImageReport> relight_image(const std::string& input, const std::string& o
                                   const RelightImageOptions& options);
 
 /// Turns an image of coefficients, written by upsample_image(), into spectra: the bits that upsample_image()
-/// would have written. For other bands than those it was made for, the spectra are evaluated there. The image's
-/// attributes say method, quantity, light and observer.
+/// would have written. For other bands than those it was made for, the spectra are evaluated there. The
+/// image's attributes say method, quantity, light and observer.
 struct ExpandImageOptions : ImageOptions {
   std::optional<Bands> bands;  ///< those it was made for where none
 };

@@ -17,9 +17,9 @@ namespace spectile {
 /// coefficients are found and its samples summed in registers.
 class Relighter {
  public:
-  /// `under` projects the upsampler's bands, `to` takes its XYZ to the colour wanted: Projector::xyz_to_srgb(),
-  /// the identity, an adaptation. Errors: kBandsMismatch when both were made for other bands; kBadArgument
-  /// for an upsampler of light.
+  /// `under` projects the upsampler's bands, `to` takes its XYZ to the colour wanted:
+  /// Projector::xyz_to_srgb(), the identity, an adaptation. Errors: kBandsMismatch when both were made for
+  /// other bands; kBadArgument for an upsampler of light.
   static Result<Relighter> create(const Upsampler& upsampler, const Projector& under, const Matrix3& to);
 
   const Upsampler& upsampler() const noexcept { return *upsampler_; }

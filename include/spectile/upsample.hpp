@@ -23,8 +23,8 @@ enum class Method {
   kSmits,       ///< 32 samples, 380 to 720 nm, times 0.94 (reflectance) or 0.86445 (illuminant)
   kSmits1999,   ///< ten samples, as printed; as illuminant, times D65 scaled to luminance 1
   kSmitsExact,  ///< the smoothest spectra whose colours are exactly the corners of the RGB cube
-  kMallett,     ///< three spectra that sum to 1, made exact for the bands; linear, so it commutes with filters
-  kSigmoid,     ///< a sigmoid of a quadratic: smooth, between 0 and 1, exact, also for colours outside sRGB
+  kMallett,  ///< three spectra that sum to 1, made exact for the bands; linear, so it commutes with filters
+  kSigmoid,  ///< a sigmoid of a quadratic: smooth, between 0 and 1, exact, also for colours outside sRGB
 };
 
 /// The method where none is asked for. See docs/methods.md for the table by which it was chosen.
@@ -71,14 +71,15 @@ struct SigmoidModel;
 
 /// A method prepared for given bands, ready for the kernels.
 ///
-/// Its RGB: primaries of the options, and RGB 1, 1, 1 is the white reflector under their light, as these bands
-/// and this observer see it (for an illuminant, that light itself with luminance 1). `smits` and `smits1999`
-/// are published for sRGB under D65 and come near it; the others are exact for the bands.
+/// Its RGB: primaries of the options, and RGB 1, 1, 1 is the white reflector under their light, as these
+/// bands and this observer see it (for an illuminant, that light itself with luminance 1). `smits` and
+/// `smits1999` are published for sRGB under D65 and come near it; the others are exact for the bands.
 ///
-/// Sources: Smits, An RGB-to-Spectrum Conversion for Reflectances, J. Graphics Tools 4(4), 1999; the 32-sample
-/// refinement and its factors: Pharr, Jakob, Humphreys, Physically Based Rendering, 3rd edition; Mallett,
-/// Yuksel, Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; Jakob, Hanika, A
-/// Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38(2), 2019.
+/// Sources: Smits, An RGB-to-Spectrum Conversion for Reflectances, J. Graphics Tools 4(4), 1999; the
+/// 32-sample refinement and its factors: Pharr, Jakob, Humphreys, Physically Based Rendering, 3rd edition;
+/// Mallett, Yuksel, Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; Jakob,
+/// Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38(2),
+/// 2019.
 class Upsampler {
  public:
   /// Errors: kOutOfMemory; kBadArgument for options that the method is not made for, and where there are no
@@ -125,8 +126,8 @@ enum class OutOfGamut {
 
 /// Colours of a batch that the method could not make.
 struct GamutReport {
-  std::uint64_t outside = 0;   ///< lanes
-  std::int64_t first = -1;     ///< the first of them
+  std::uint64_t outside = 0;  ///< lanes
+  std::int64_t first = -1;    ///< the first of them
 };
 
 /// Makes a batch of RGB one that the upsampler can make. For the methods that mix basis spectra these are the
@@ -134,15 +135,16 @@ struct GamutReport {
 /// that some sigmoid has, which is more than the cube of sRGB. Black, white and greys are always inside.
 /// Colours outside keep their luminance (limited to 0 to 1 for the sigmoid's reflectances) and their dominant
 /// wavelength. Shapes: rgb three times [lanes]. Errors: kBadArgument for samples not aligned.
-Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb, OutOfGamut policy = OutOfGamut::kClip,
-                                const Execution& how = {});
+Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb,
+                                OutOfGamut policy = OutOfGamut::kClip, const Execution& how = {});
 
 /// Coefficients of a method: three for every lane, and a scale for the sigmoid's unbounded ones and lights.
-/// For methods that mix basis spectra they are the RGB itself. upsample_srgb() is coefficients() and expand().
+/// For methods that mix basis spectra they are the RGB itself. upsample_srgb() is coefficients() and
+/// expand().
 struct CoefficientLanes {
   ColorLanes c;
-  ScalarLanes scale;       ///< of no lanes where the method needs none
-  GamutReport unsolved;    ///< lanes without coefficients: theirs are those that came nearest
+  ScalarLanes scale;     ///< of no lanes where the method needs none
+  GamutReport unsolved;  ///< lanes without coefficients: theirs are those that came nearest
   static Result<CoefficientLanes> create(const Upsampler& upsampler, std::size_t lanes);
 };
 

@@ -76,7 +76,11 @@ void print_info(const std::string& path, const ImageInfo& info) {
   }
   for (std::size_t i = 0; i < plain; ++i) print_channel(info.channels[i]);
   fmt::print("{} non-finite and {} negative samples\n", info.nonfinite, info.negative);
-  for (const auto& [name, text] : info.attributes) fmt::print("{}: {}\n", name, text);
+  for (const auto& [name, text] : info.attributes) {
+    // Long ones, as the bands of a coefficient image, are whole in --json.
+    constexpr std::size_t kMost = 160;
+    fmt::print("{}: {}{}\n", name, text.substr(0, kMost), text.size() > kMost ? " ..." : "");
+  }
 }
 
 void print_pixel(const ImageInfo& info, const std::string& where) {

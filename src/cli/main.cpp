@@ -12,7 +12,8 @@ namespace {
 int run(int argc, char** argv) {
   using namespace spectile::cli;
   CLI::App app{
-      "spectile turns RGB textures into spectral OpenEXR images, spectral images back into colour, and shows\n"
+      "spectile turns RGB textures into spectral OpenEXR images, spectral images back into colour, and "
+      "shows\n"
       "textures under other lights.\n"
       "Exit codes: 0 done, 1 a file that cannot be used, 2 wrong usage, 3 no space or no permission."};
   app.set_version_flag("--version", SPECTILE_VERSION);

@@ -18,18 +18,20 @@ std::string joined(const std::vector<std::string>& names) {
 
 void add_method_options(CLI::App& command, MethodArguments& a) {
   command
-      .add_option("--method", a.method,
-                  "smits-exact: the smoothest basis spectra whose colours come back exactly, as fast as smits, "
-                  "and values above 1 go on linearly; sigmoid: exact, smooth, nearest to measured reflectances "
-                  "under other lights (10 to 30 % less error), also for colours outside sRGB, at seven times "
-                  "the arithmetic; mallett: exact and linear, so filtering before or after is the same; smits: "
-                  "32-sample basis spectra, some 3 % off; smits1999: the ten samples of the paper")
+      .add_option(
+          "--method", a.method,
+          "smits-exact: the smoothest basis spectra whose colours come back exactly, as fast as smits, "
+          "and values above 1 go on linearly; sigmoid: exact, smooth, nearest to measured reflectances "
+          "under other lights (10 to 30 % less error), also for colours outside sRGB, at seven times "
+          "the arithmetic; mallett: exact and linear, so filtering before or after is the same; smits: "
+          "32-sample basis spectra, some 3 % off; smits1999: the ten samples of the paper")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
   command
-      .add_option("--quantity", a.quantity,
-                  "reflectance (channels T.*nm), unbounded: the same on any scale, above 1 too, or illuminant: "
-                  "emitted light (channels S0.*nm)")
+      .add_option(
+          "--quantity", a.quantity,
+          "reflectance (channels T.*nm), unbounded: the same on any scale, above 1 too, or illuminant: "
+          "emitted light (channels S0.*nm)")
       ->check(CLI::IsMember({"reflectance", "unbounded", "illuminant"}))
       ->capture_default_str();
   command
@@ -38,11 +40,13 @@ void add_method_options(CLI::App& command, MethodArguments& a) {
           "FIRST:LAST:STEP in nm, or a list of centres. The default cuts off what the eye sees beyond it: "
           "a mean error of 0.29 CIEDE2000 under D65, against 0.03 for 380:780:5")
       ->capture_default_str();
-  command.add_option("--white", a.light,
-                     "Light under which RGB 1,1,1 is the white reflector (for illuminants: that light itself), "
-                     "for smits-exact, mallett and sigmoid: " +
-                         light_help() + "; D65 by default");
-  command.add_option("--white-observer", a.observer, "Observer of the same: 1931 (2 degree) or 1964 (10 degree)")
+  command.add_option(
+      "--white", a.light,
+      "Light under which RGB 1,1,1 is the white reflector (for illuminants: that light itself), "
+      "for smits-exact, mallett and sigmoid: " +
+          light_help() + "; D65 by default");
+  command
+      .add_option("--white-observer", a.observer, "Observer of the same: 1931 (2 degree) or 1964 (10 degree)")
       ->check(CLI::IsMember({"1931", "1964"}))
       ->capture_default_str();
   command
@@ -52,15 +56,17 @@ void add_method_options(CLI::App& command, MethodArguments& a) {
                       "reflectance's white is adapted (Bradford) from the space's to D65, light is not")
       ->check(CLI::IsMember(rgb_space_names(), CLI::ignore_case));
   command
-      .add_option("--negative", a.negative,
-                  "Components below 0 in the file: gamut (treat them as colours out of gamut), clip to 0, keep "
-                  "(samples may fall below 0 too) or stop")
+      .add_option(
+          "--negative", a.negative,
+          "Components below 0 in the file: gamut (treat them as colours out of gamut), clip to 0, keep "
+          "(samples may fall below 0 too) or stop")
       ->check(CLI::IsMember({"gamut", "clip", "keep", "stop"}))
       ->capture_default_str();
   command
-      .add_option("--out-of-gamut", a.out_of_gamut,
-                  "Colours that the method cannot make: clip (to the nearest at the same luminance and dominant "
-                  "wavelength), keep or error; clip by default, keep with --negative keep")
+      .add_option(
+          "--out-of-gamut", a.out_of_gamut,
+          "Colours that the method cannot make: clip (to the nearest at the same luminance and dominant "
+          "wavelength), keep or error; clip by default, keep with --negative keep")
       ->check(CLI::IsMember({"clip", "keep", "error"}));
   command.add_option("--layer", a.layer, "Layer, view or part to take R, G, B from");
 }
@@ -107,7 +113,8 @@ Result<NamedLight> load_light(const std::string& text) {
   auto known = illuminant(text);
   if (known) {
     for (const std::string& name : illuminant_names()) {
-      if (CLI::detail::to_lower(name) == CLI::detail::to_lower(text)) return NamedLight{name, *std::move(known)};
+      if (CLI::detail::to_lower(name) == CLI::detail::to_lower(text))
+        return NamedLight{name, *std::move(known)};
     }
   }
   if (!file) return known.error();
@@ -121,7 +128,9 @@ std::string light_help() {
 }
 
 Adaptation adaptation_of(const std::string& text) {
-  return text == "bradford" ? Adaptation::kBradford : text == "cat16" ? Adaptation::kCat16 : Adaptation::kNone;
+  return text == "bradford" ? Adaptation::kBradford
+         : text == "cat16"  ? Adaptation::kCat16
+                            : Adaptation::kNone;
 }
 
 void add_adaptation_option(CLI::App& command, std::string& text) {

@@ -43,8 +43,7 @@ bool runs_sse42() {
   return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
 }
 bool runs_avx2() {
-  return runs_sse42() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-         has_f16c();
+  return runs_sse42() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && has_f16c();
 }
 bool runs_avx512() {
   return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&

@@ -28,7 +28,8 @@ std::uint64_t limit_to_half(const kernels::KernelTable& kernels, const ColorLine
 void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
                PixelType type, FloatBuffer& halves, std::byte* out);
 
-/// XYZ of a projector to the colour wanted: sRGB, or XYZ, with the light's white adapted to D65's where asked.
+/// XYZ of a projector to the colour wanted: sRGB, or XYZ, with the light's white adapted to D65's where
+/// asked.
 Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation adaptation);
 
 }  // namespace spectile::io

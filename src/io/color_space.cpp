@@ -17,10 +17,9 @@ constexpr struct {
   std::string_view id;
   std::string_view space;
 } kInteropSpaces[] = {
-    {"lin_rec709_scene", "rec709"},        {"lin_srgb_scene", "srgb"},
-    {"lin_p3d65_scene", "display-p3"},     {"lin_rec2020_scene", "rec2020"},
-    {"lin_adobergb_scene", "adobe-rgb"},   {"lin_ap0_scene", "aces2065-1"},
-    {"lin_ap1_scene", "acescg"},           {"lin_ciexyzd65_scene", "xyz"},
+    {"lin_rec709_scene", "rec709"},   {"lin_srgb_scene", "srgb"},          {"lin_p3d65_scene", "display-p3"},
+    {"lin_rec2020_scene", "rec2020"}, {"lin_adobergb_scene", "adobe-rgb"}, {"lin_ap0_scene", "aces2065-1"},
+    {"lin_ap1_scene", "acescg"},      {"lin_ciexyzd65_scene", "xyz"},
 };
 
 bool close(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -72,8 +71,8 @@ Result<RgbSpace> color_space_of(const Imf::Header& header, const std::string& pa
 
 bool is_srgb(const RgbSpace& space) {
   const Chromaticities& c = space.chromaticities;
-  return close(c.red, kRec709.red) && close(c.green, kRec709.green) &&
-         close(c.blue, kRec709.blue) && close(c.white, kRec709.white);
+  return close(c.red, kRec709.red) && close(c.green, kRec709.green) && close(c.blue, kRec709.blue) &&
+         close(c.white, kRec709.white);
 }
 
 Matrix3 to_srgb(const RgbSpace& space, Quantity quantity) {

@@ -15,8 +15,8 @@ ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, cons
       options_(options),
       kernels_(kernels),
       space_(options.input_space ? *options.input_space : source.color_space()),
-      out_of_gamut_(options.out_of_gamut.value_or(
-          options.negative == Negative::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip)) {
+      out_of_gamut_(options.out_of_gamut.value_or(options.negative == Negative::kKeep ? GamutPolicy::kKeep
+                                                                                      : GamutPolicy::kClip)) {
   convert_ = !is_srgb(space_);
   matrix_ = color::to_float(to_srgb(space_, options.quantity));
 }

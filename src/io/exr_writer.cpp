@@ -267,9 +267,11 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
   encoder.result = {static_cast<const std::byte*>(encoder.pipeline.compressed_buffer),
                     encoder.pipeline.compressed_bytes};
-  // A reader takes a chunk that is no smaller than its pixels for stored as they are; OpenEXR 3.1's B44 forgets it.
+  // A reader takes a chunk that is no smaller than its pixels for stored as they are; OpenEXR 3.1's B44
+  // forgets it.
   if (encoder.result.size() >= encoder.pipeline.packed_bytes) {
-    encoder.result = {static_cast<const std::byte*>(encoder.pipeline.packed_buffer), encoder.pipeline.packed_bytes};
+    encoder.result = {static_cast<const std::byte*>(encoder.pipeline.packed_buffer),
+                      encoder.pipeline.packed_bytes};
   }
   if (!is_zip(compression_.kind)) return {};
   return guarded(path_, [&] {

@@ -72,8 +72,8 @@ std::vector<std::string> coefficient_channels(const Upsampler& upsampler) {
 }
 
 std::vector<std::string> method_attribute_names() {
-  return {"spectileMethod",   "spectileLight",        "spectileObserver",       "spectileQuantity",
-          "spectileBands",    "spectileLightSamples", "spectileKeepNegative",   "spectileCoefficients"};
+  return {"spectileMethod", "spectileLight",        "spectileObserver",     "spectileQuantity",
+          "spectileBands",  "spectileLightSamples", "spectileKeepNegative", "spectileCoefficients"};
 }
 
 std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampler& upsampler,

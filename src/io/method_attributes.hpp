@@ -24,8 +24,8 @@ std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampl
 /// Whether a part holds coefficients.
 bool holds_coefficients(const Imf::Header& header);
 
-/// The upsampler that made a part's coefficients. Errors: kBadFile for attributes that are missing or damaged,
-/// and those of Upsampler::create().
+/// The upsampler that made a part's coefficients. Errors: kBadFile for attributes that are missing or
+/// damaged, and those of Upsampler::create().
 Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& path);
 
 }  // namespace spectile::io

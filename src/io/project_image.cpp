@@ -198,8 +198,8 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.compression = options.compression;
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
-  spec.replaced.insert(spec.replaced.end(), {"spectralLayoutVersion", "emissiveUnits", "chromaticities",
-                                             "colorInteropID"});
+  spec.replaced.insert(spec.replaced.end(),
+                       {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);

@@ -61,7 +61,8 @@ class UpsampleJob : public io::LineJob {
       out.push_back({plane.name, io::passing_type(plane)});
     }
     if (options_.store == Store::kCoefficients) {
-      for (const std::string& name : io::coefficient_channels(upsampler_)) out.push_back({name, EXR_PIXEL_FLOAT});
+      for (const std::string& name : io::coefficient_channels(upsampler_))
+        out.push_back({name, EXR_PIXEL_FLOAT});
       return out;
     }
     const auto kind = options_.quantity == Quantity::kIlluminant ? io::SpectralKind::kEmissive

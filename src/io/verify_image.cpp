@@ -7,9 +7,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/color_stage.hpp"
 #include "src/io/lines.hpp"
 #include "src/io/output.hpp"
-#include "src/io/color_stage.hpp"
 #include "src/io/rgb_source.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/method_rows.hpp"

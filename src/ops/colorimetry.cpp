@@ -56,9 +56,8 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
                               : product_integral(functions[k], *light, band.lower_nm, band.upper_nm);
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      d65_white[k] += light == nullptr
-                          ? w[k] * d65.integral(band.lower_nm, band.upper_nm) / band.width_nm()
-                          : product_integral(functions[k], d65, band.lower_nm, band.upper_nm);
+      d65_white[k] += light == nullptr ? w[k] * d65.integral(band.lower_nm, band.upper_nm) / band.width_nm()
+                                       : product_integral(functions[k], d65, band.lower_nm, band.upper_nm);
     }
     luminance += w[1];
     projector.weights_.push_back(w);

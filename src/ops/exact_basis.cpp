@@ -76,8 +76,8 @@ std::optional<BasisTable> primary_decomposition(const Bands& bands, const Workin
   QuadraticProgram program;
   program.variables = 3 * n;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto spectrum =
-        MeasuredSpectrum::from_samples(data::kMallettYuksel.wavelengths_nm, data::kMallettYuksel.primaries[k]);
+    const auto spectrum = MeasuredSpectrum::from_samples(data::kMallettYuksel.wavelengths_nm,
+                                                         data::kMallettYuksel.primaries[k]);
     if (!spectrum) return {};
     for (const Band& band : bands.list()) {
       published[k].push_back(spectrum->integral(band.lower_nm, band.upper_nm) / band.width_nm());

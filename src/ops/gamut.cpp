@@ -44,7 +44,8 @@ GamutReport limit_bases(const kernels::KernelTable& kernels, const Upsampler& up
   for (std::size_t at = 0; at < n; at += kLanes) {
     float* const block[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     std::uint64_t moved = 0;
-    kernels.limit_gamut(block, luminance.weights, 0.0F, std::numeric_limits<float>::infinity(), &moved, kLanes);
+    kernels.limit_gamut(block, luminance.weights, 0.0F, std::numeric_limits<float>::infinity(), &moved,
+                        kLanes);
   }
   return report;
 }
@@ -62,7 +63,8 @@ struct Group {
 /// Which colours of `tried` have coefficients.
 std::uint64_t solvable(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group) {
   const float* const rgb[3] = {group.tried[0], group.tried[1], group.tried[2]};
-  const Coefficients out = {{group.c[0], group.c[1], group.c[2]}, has_scale(upsampler) ? group.scale : nullptr};
+  const Coefficients out = {{group.c[0], group.c[1], group.c[2]},
+                            has_scale(upsampler) ? group.scale : nullptr};
   std::uint64_t unsolved = 0;
   solve(kernels, upsampler, rgb, out, &unsolved, kLanes);
   if (has_scale(upsampler)) {

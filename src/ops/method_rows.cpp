@@ -49,7 +49,8 @@ void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, cons
   }
   const float* const normalized[3] = {out.c[0], out.c[1], out.c[2]};
   if (out.scale != nullptr) normalize(rgb, out.c, out.scale, n);
-  kernels.sigmoid_solve(out.c, out.scale != nullptr ? normalized : rgb, upsampler.sigmoid()->table, unsolved, n);
+  kernels.sigmoid_solve(out.c, out.scale != nullptr ? normalized : rgb, upsampler.sigmoid()->table, unsolved,
+                        n);
 }
 
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],

@@ -78,9 +78,7 @@ double longest_step(const Vector& v, const Vector& direction) {
 struct State {
   Vector x, y, lower, upper;
   Vector room() const { return Vector::Ones(x.size()) - x; }  // to the upper bound
-  double gap() const {
-    return (lower.dot(x) + upper.dot(room())) / static_cast<double>(2 * x.size());
-  }
+  double gap() const { return (lower.dot(x) + upper.dot(room())) / static_cast<double>(2 * x.size()); }
 };
 
 /// The state at the minimum, or nothing where the equalities cannot be met.

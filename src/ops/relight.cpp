@@ -63,8 +63,10 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
     }
   }
   // The long way: the table, three products and two sums a sample; a weight, a product and the runs of sums;
-  // a matrix of four roundings. The direct way: as many as a sample. The weights sum to the largest component.
-  const double roundings = 6 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 6;
+  // a matrix of four roundings. The direct way: as many as a sample. The weights sum to the largest
+  // component.
+  const double roundings =
+      6 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 6;
   for (std::size_t k = 0; k < 3; ++k) out.bound_[k] = roundings * kRounding * magnitude[k] + clamped[k];
   return out;
 }

@@ -27,7 +27,8 @@ double centre(std::size_t i, int steps) {
   return (static_cast<double>(i) + 0.5) / steps;
 }
 
-/// A function of the grid's three coordinates: value, first derivatives, second ones (00, 11, 22, 01, 02, 12).
+/// A function of the grid's three coordinates: value, first derivatives, second ones (00, 11, 22, 01, 02,
+/// 12).
 struct Expansion {
   double value = 0;
   Triple first{};
@@ -43,8 +44,8 @@ Expansion product(const Expansion& a, const Expansion& b) {
   for (std::size_t i = 0; i < 3; ++i) out.first[i] = a.first[i] * b.value + a.value * b.first[i];
   for (std::size_t p = 0; p < 6; ++p) {
     const auto [i, j] = kPairs[p];
-    out.second[p] = a.second[p] * b.value + a.first[i] * b.first[j] + a.first[j] * b.first[i] +
-                    a.value * b.second[p];
+    out.second[p] =
+        a.second[p] * b.value + a.first[i] * b.first[j] + a.first[j] * b.first[i] + a.value * b.second[p];
   }
   return out;
 }
@@ -100,7 +101,8 @@ std::array<Expansion, 3> expand(const SigmoidSums& sums, std::size_t most, const
     for (std::size_t k = 0; k < 3; ++k) {
       right[k] = rgb[k].second[p];
       for (std::size_t a = 0; a < 3; ++a) {
-        for (std::size_t b = 0; b < 3; ++b) right[k] -= bend[k][3 * a + b] * out[a].first[i] * out[b].first[j];
+        for (std::size_t b = 0; b < 3; ++b)
+          right[k] -= bend[k][3 * a + b] * out[a].first[i] * out[b].first[j];
       }
     }
     const Triple solved = times(g, right);

@@ -139,10 +139,11 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
                                     const UpsamplerOptions& options) {
   const bool published = method == Method::kSmits || method == Method::kSmits1999;
   if (published && (options.light || options.observer != Observer::kCie1931)) {
-    return make_error(ErrorCode::kBadArgument,
-                      "{} is published for D65 and the 2 degree observer; smits-exact, mallett and sigmoid take "
-                      "others",
-                      to_string(method));
+    return make_error(
+        ErrorCode::kBadArgument,
+        "{} is published for D65 and the 2 degree observer; smits-exact, mallett and sigmoid take "
+        "others",
+        to_string(method));
   }
   if ((published || method == Method::kMallett) && !(options.primaries == kRec709)) {
     return make_error(ErrorCode::kBadArgument,
@@ -158,8 +159,7 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   out.bands_ = bands;
   out.options_ = options;
   out.rgb_to_xyz_ = space ? space->rgb_to_xyz : srgb_to_xyz_matrix();
-  out.lowest_ =
-      options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
+  out.lowest_ = options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
   if (method == Method::kSigmoid) {
     auto model = sigmoid_model(bands, *space);
     if (!model) return model.error();

@@ -91,38 +91,6 @@ bool is_last(float size, const float step[3], float close) {
   return size * length_of(step) <= close && size <= kSigmoidNear;
 }
 
-/// Steps from start coefficients, no further than to those of length `steep`, to those of the target; 0 where it got there, else the residual that is left.
-float refine(float c[3], const float target[3], float close, float steep, const SigmoidTable& table) {
-  Sums sums = sums_of(c, table);
-  float r[3];
-  float size = residual(sums, target, r);
-  float part = 1;
-  for (int i = 0; i < kSigmoidSteps; ++i) {
-    float step[3];
-    newton_step(sums, r, step);
-    if (is_last(size, step, close)) {
-      for (std::size_t k = 0; k < 3; ++k) c[k] = c[k] + step[k];
-      return 0;
-    }
-    float trial[3];
-    for (std::size_t k = 0; k < 3; ++k) trial[k] = c[k] + part * step[k];
-    const Sums sums_there = sums_of(trial, table);
-    float r_there[3];
-    const float size_there = residual(sums_there, target, r_there);
-    if (size_there < size && length_of(trial) <= steep) {
-      std::copy(trial, trial + 3, c);
-      std::copy(r_there, r_there + 3, r);
-      sums = sums_there;
-      size = size_there;
-      part = part + part > 1 ? 1 : part + part;
-    } else {
-      part = part * 0.25F;
-      if (part < kSigmoidShortest) return size;
-    }
-  }
-  return size;
-}
-
 /// Start coefficients for a colour in the dark half of the cube: the expansion around the nearest node.
 void start(const float v[3], float c[3], const SigmoidTable& table) {
   const std::size_t most = v[0] >= v[1] && v[0] >= v[2] ? 0 : v[1] >= v[2] ? 1 : 2;
@@ -150,6 +118,65 @@ void start(const float v[3], float c[3], const SigmoidTable& table) {
     const float last_slope = fused(e[5], d[2], fused(e[8], d[1], fused(e[7], d[0], e[2])));
     c[k] = fused(last_slope, d[2], fused(slope, d[1], first)) * root;
   }
+}
+
+/// A colour that is searched for, and under which conditions.
+struct Search {
+  float target[3];
+  float close;  // what the residual times the step may be at the end
+  float steep;  // longest coefficients allowed
+  float scale;  // power of four that brightens the first colour searched for
+  int steps;    // evaluations at most
+};
+
+/// Steps from coefficients for the brightened colour to those of the target; 0 where it got there, else the
+/// residual that is left.
+float refine(float c[3], const Search& search, const SigmoidTable& table) {
+  float scale = search.scale;
+  float goal[3];
+  for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
+  Sums sums = sums_of(c, table);
+  float r[3];
+  float size = residual(sums, goal, r);
+  float part = 1;
+  for (int i = 0; i < search.steps; ++i) {
+    float step[3];
+    newton_step(sums, r, step);
+    const bool rounded = size <= kSigmoidFloor;
+    const bool arrived = rounded || is_last(size, step, search.close);
+    float trial[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float length = rounded ? 0.0F : arrived ? 1.0F : part;
+      trial[k] = c[k] + length * step[k];
+    }
+    if (arrived && scale == 1.0F) {
+      std::copy(trial, trial + 3, c);
+      return 0;
+    }
+    if (arrived) {
+      scale = scale * 0.25F;
+      for (std::size_t k = 0; k < 3; ++k) {
+        trial[k] = trial[k] + trial[k];
+        goal[k] = search.target[k] * scale;
+      }
+    }
+    const Sums sums_there = sums_of(trial, table);
+    float r_there[3];
+    const float size_there = residual(sums_there, goal, r_there);
+    if (arrived || (size_there < size && length_of(trial) <= search.steep)) {
+      std::copy(trial, trial + 3, c);
+      std::copy(r_there, r_there + 3, r);
+      sums = sums_there;
+      size = size_there;
+      part = arrived || part + part > 1 ? 1 : part + part;
+    } else {
+      part = part * 0.25F;
+      if (part < kSigmoidShortest) break;
+    }
+  }
+  const float root = std::sqrt(scale);
+  for (std::size_t k = 0; k < 3; ++k) c[k] = c[k] * root;
+  return size;
 }
 
 }  // namespace
@@ -216,8 +243,20 @@ bool sigmoid_coefficients(float c[3], const float rgb[3], const SigmoidTable& ta
     for (std::size_t k = 0; k < 3; ++k) c[k] = near ? c[k] + step[k] : c[k];
     const float close = kSigmoidClose * (z < kSigmoidDark ? kSigmoidDark : z);
     const bool last = inside && near && is_last(size, step, close);
-    const float steep = inside ? kSigmoidFar : kSigmoidSteep / std::sqrt(black ? 0.5F : z);
-    if (!last) solved = refine(c, target, close, steep, table) <= kSigmoidUnsolved;
+    if (!last) {
+      Search search = {{target[0], target[1], target[2]}, close, kSigmoidFar, 1.0F, kSigmoidSteps};
+      if (inside) {
+        for (int level = 0; level < kSigmoidLevels; ++level) {
+          if (z * search.scale < kSigmoidLit) search.scale = search.scale * 4.0F;
+        }
+        const float lit_up[3] = {v[0] * search.scale, v[1] * search.scale, v[2] * search.scale};
+        if (search.scale > 1.0F) start(lit_up, c, table);
+      } else {
+        search.steep = kSigmoidSteep / std::sqrt(black ? 0.5F : z);
+        search.steps = kSigmoidStepsOutside;
+      }
+      solved = refine(c, search, table) <= kSigmoidUnsolved;
+    }
   }
   for (std::size_t k = 0; k < 3; ++k) c[k] = bright ? -c[k] : c[k];
   return solved;

@@ -6,8 +6,8 @@
 
 namespace spectile::reference {
 
-/// Half the inverse square root of a t from 1 to 2^126: a guess from its bits, then a step of third and one of
-/// second order.
+/// Half the inverse square root of a t from 1 to 2^126: a guess from its bits, then a step of third and one
+/// of second order.
 float half_inverse_root(float t) noexcept;
 
 /// The sigmoid's value, and half the inverse root of 1 + x * x, four times whose cube is its slope.

@@ -34,8 +34,7 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const kernels::
     if (i % kLanes == 0) unsolved[i / kLanes] = 0;
     const float color[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};
     float lane[3];
-    if (!sigmoid_coefficients(lane, color, table))
-      unsolved[i / kLanes] |= std::uint64_t{1} << (i % kLanes);
+    if (!sigmoid_coefficients(lane, color, table)) unsolved[i / kLanes] |= std::uint64_t{1} << (i % kLanes);
     for (std::size_t k = 0; k < 3; ++k) c[k][i] = lane[k];
   }
 }

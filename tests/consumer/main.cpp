@@ -1,8 +1,7 @@
 // A program that knows only the installed package: one red pixel becomes a spectrum and comes back.
-#include <spectile/spectile.hpp>
-
 #include <cmath>
 #include <cstdio>
+#include <spectile/spectile.hpp>
 
 int main() {
   using namespace spectile;

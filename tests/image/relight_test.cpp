@@ -22,7 +22,8 @@ class RelitImages : public testing::Test {
       return 0.5 + 0.5 * std::sin(frequency * (x + 67 * y) + phase);
     };
     picture.add("R", Imf::FLOAT, [&](int x, int y) { return x == 7 && y == 0 ? 2.5 : wave(0.11, 0, x, y); });
-    picture.add("G", Imf::FLOAT, [&](int x, int y) { return x == 9 && y == 0 ? -0.125 : wave(0.17, 1, x, y); });
+    picture.add("G", Imf::FLOAT,
+                [&](int x, int y) { return x == 9 && y == 0 ? -0.125 : wave(0.17, 1, x, y); });
     picture.add("B", Imf::FLOAT, [&](int x, int y) { return wave(0.23, 2, x, y); });
     picture.add("A", Imf::HALF, [](int x, int y) { return (x + y) % 3 * 0.5; });
     test::write_scanlines(folder_ / "in.exr", picture);

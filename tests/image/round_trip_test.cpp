@@ -40,8 +40,7 @@ Expected expect(const test::Picture& picture, const Bands& bands, bool half_samp
   }
   const double sums = static_cast<double>(bands.count() + 2) + 4;
   // sRGB's white is D65 as the bands see it: each component over that of a white reflector.
-  const Triple white =
-      oracle::xyz_to_srgb(oracle::project(weights, std::vector<double>(bands.count(), 1.0)));
+  const Triple white = oracle::xyz_to_srgb(oracle::project(weights, std::vector<double>(bands.count(), 1.0)));
   Matrix3 m = xyz_to_srgb_matrix();
   for (std::size_t i = 0; i < 9; ++i) m[i] /= white[i / 3];
   Expected out;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-
 #include <spectile/bands.hpp>
 
 namespace spectile {
@@ -63,7 +62,8 @@ TEST(Bands, ParsesRangesAndLists) {
   EXPECT_EQ(Bands::parse("380:780:5")->count(), 80U);
   EXPECT_EQ(Bands::parse("450, 550 ,650")->count(), 3U);
   EXPECT_EQ(Bands::parse("550")->count(), 1U);
-  for (const char* bad : {"", ":", "400:700", "400:700:5:6", "a:b:c", "400:700:5nm", "500,400", "nan", "1e999"}) {
+  for (const char* bad :
+       {"", ":", "400:700", "400:700:5:6", "a:b:c", "400:700:5nm", "500,400", "nan", "1e999"}) {
     const auto bands = Bands::parse(bad);
     EXPECT_FALSE(bands) << bad;
     if (bands) continue;

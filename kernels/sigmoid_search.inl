@@ -1,0 +1,356 @@
+// The search for the sigmoid that has a colour: an expansion around the nearest node, then Newton's method.
+#pragma once
+
+#include "kernels/sigmoid.inl"
+
+namespace spectile::kernels {
+namespace {
+
+/// Sums over the bands and their derivatives by the coefficients.
+struct SigmoidSums {
+  F32 f[3];
+  F32 j[9];
+};
+
+inline SigmoidSums zero_sums() noexcept {
+  SigmoidSums sums;
+  for (auto& v : sums.f) v = F32(0.0F);
+  for (auto& v : sums.j) v = F32(0.0F);
+  return sums;
+}
+
+inline void add_slopes(SigmoidSums& sums, const SigmoidPoint& p, const float* row) noexcept {
+  const F32 slope = (p.root * p.root) * p.root;
+  for (std::size_t i = 0; i < 9; ++i) sums.j[i] = fused(slope, F32(row[i]), sums.j[i]);
+}
+
+/// Sums over all bands, run by run, and their derivatives.
+inline SigmoidSums sums_of(const Coefficients& a, const SigmoidTable& table) noexcept {
+  SigmoidSums sums = zero_sums();
+  for_runs(table.bands, [&](std::size_t first, std::size_t end) {
+    F32 run[3] = {F32(0.0F), F32(0.0F), F32(0.0F)};
+    for (std::size_t b = first; b < end; ++b) {
+      const float* row = table.rows + b * kSigmoidRow;
+      const SigmoidPoint p = sigmoid_point(a, F32(row[kSigmoidLambda]));
+      for (std::size_t k = 0; k < 3; ++k) run[k] = fused(F32(table.weights[4 * b + k]), p.sample, run[k]);
+      add_slopes(sums, p, row);
+    }
+    for (std::size_t k = 0; k < 3; ++k) sums.f[k] = sums.f[k] + run[k];
+  });
+  return sums;
+}
+
+/// What is left of the target, and its largest magnitude.
+struct Residual {
+  F32 r[3];
+  F32 size;
+};
+
+inline Residual residual(const SigmoidSums& sums, const F32 target[3]) noexcept {
+  Residual out;
+  for (std::size_t k = 0; k < 3; ++k) out.r[k] = target[k] - sums.f[k];
+  const F32 a = xsimd::abs(out.r[0]);
+  const F32 b = xsimd::abs(out.r[1]);
+  const F32 c = xsimd::abs(out.r[2]);
+  const F32 first = xsimd::select(a > b, a, b);
+  out.size = xsimd::select(first > c, first, c);
+  return out;
+}
+
+/// Newton's step, by Cramer's rule; zero where it is not finite.
+inline Coefficients newton_step(const SigmoidSums& sums, const Residual& left) noexcept {
+  const F32* const a = sums.j;
+  const F32* const b = sums.j + 3;
+  const F32* const c = sums.j + 6;
+  const auto cross = [](const F32* u, const F32* v, F32* out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t m = (i + 1) % 3;
+      const std::size_t n = (i + 2) % 3;
+      out[i] = fused_minus(u[n], v[m], u[m] * v[n]);
+    }
+  };
+  F32 bc[3];
+  F32 ca[3];
+  F32 ab[3];
+  cross(b, c, bc);
+  cross(c, a, ca);
+  cross(a, b, ab);
+  const F32 determinant = fused(a[2], bc[2], fused(a[1], bc[1], a[0] * bc[0]));
+  const F32 inverse = F32(1.0F) / determinant;
+  Coefficients step;
+  for (std::size_t i = 0; i < 3; ++i) {
+    step.c[i] = fused(left.r[2], ab[i], fused(left.r[1], ca[i], left.r[0] * bc[i])) * inverse;
+  }
+  const F32 far(kSigmoidFar);
+  const Mask finite =
+      (xsimd::abs(step.c[0]) < far) & (xsimd::abs(step.c[1]) < far) & (xsimd::abs(step.c[2]) < far);
+  for (auto& v : step.c) v = xsimd::select(finite, v, F32(0.0F));
+  return step;
+}
+
+/// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
+inline F32 length_of(const Coefficients& a) noexcept {
+  return (xsimd::abs(a.c[0]) + xsimd::abs(a.c[1])) + xsimd::abs(a.c[2]);
+}
+inline Mask is_last(const Residual& left, const Coefficients& step, F32 close) noexcept {
+  return (left.size * length_of(step) <= close) & (left.size <= F32(kSigmoidNear));
+}
+
+/// Start coefficients for colours in the dark half of the cube: the expansion around the nearest node.
+inline Coefficients start(const F32 v[3], F32 z, const SigmoidTable& table) noexcept {
+  const Mask first = (v[0] >= v[1]) & (v[0] >= v[2]);
+  const Mask second = v[1] >= v[2];
+  const F32 next = xsimd::select(first, v[1], xsimd::select(second, v[2], v[0]));
+  const F32 last = xsimd::select(first, v[2], xsimd::select(second, v[0], v[1]));
+  const F32 most = xsimd::select(first, F32(0.0F), xsimd::select(second, F32(1.0F), F32(2.0F)));
+  const F32 inverse = F32(1.0F) / z;
+  const F32 q[3] = {F32(1.0F) - xsimd::sqrt(F32(1.0F) - z), xsimd::sqrt(next * inverse),
+                    xsimd::sqrt(last * inverse)};
+  const F32 steps(static_cast<float>(table.steps));
+  const F32 limit = steps - F32(0.5F);
+  I32 node = xsimd::to_int(most);
+  F32 d[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const F32 scaled = q[i] * steps;
+    const I32 cell = xsimd::to_int(limit_above(limit, scaled));
+    d[i] = scaled - (xsimd::to_float(cell) + F32(0.5F));
+    node = node * I32(table.steps) + cell;
+  }
+  const I32 at = node * I32(static_cast<std::int32_t>(kSigmoidNode));
+  const F32 root = F32(1.0F) / xsimd::sqrt(z);
+  Coefficients out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* const e = table.nodes + 3 + 9 * k;
+    const auto entry = [&](std::size_t i) { return gather(e + i, at); };
+    // By the powers of the first distance, then of the second, then of the third.
+    const F32 first_part = fused(fused(entry(3), d[0], entry(0)), d[0], gather(table.nodes + k, at));
+    const F32 slope = fused(entry(4), d[1], fused(entry(6), d[0], entry(1)));
+    const F32 last_slope = fused(entry(5), d[2], fused(entry(8), d[1], fused(entry(7), d[0], entry(2))));
+    out.c[k] = fused(last_slope, d[2], fused(slope, d[1], first_part)) * root;
+  }
+  return out;
+}
+
+/// Colours that are searched for, and under which conditions.
+struct Search {
+  F32 target[3];
+  F32 close;  // what the residual times the step may be at the end
+  F32 steep;  // longest coefficients allowed
+  F32 scale;  // power of four that brightens the first colour searched for
+  F32 steps;  // evaluations at most
+};
+
+/// Steps from coefficients for the brightened colours to those of the targets; 0 where it got there, else the
+/// residual that is left. A lane that is done stays as it is, so that no lane depends on its neighbours.
+inline F32 refine(Coefficients& a, const Search& search, const SigmoidTable& table) noexcept {
+  const F32 zero(0.0F);
+  const F32 one(1.0F);
+  F32 scale = search.scale;
+  F32 goal[3];
+  for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
+  SigmoidSums sums = sums_of(a, table);
+  Residual left = residual(sums, goal);
+  F32 part = one;
+  Mask active = scale == scale;
+  for (int i = 0; i < kSigmoidSteps; ++i) {
+    active = active & (F32(static_cast<float>(i)) < search.steps);
+    if (lane_bits(active) == 0) break;
+    const Coefficients step = newton_step(sums, left);
+    const Mask rounded = left.size <= F32(kSigmoidFloor);
+    const Mask arrived = rounded | is_last(left, step, search.close);
+    const F32 length = xsimd::select(rounded, zero, xsimd::select(arrived, one, part));
+    Coefficients trial;
+    for (std::size_t k = 0; k < 3; ++k) trial.c[k] = a.c[k] + length * step.c[k];
+    const Mask done = active & arrived & (scale == one);
+    for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(done, trial.c[k], a.c[k]);
+    left.size = xsimd::select(done, zero, left.size);
+    active = active & ~done;
+    if (lane_bits(active) == 0) break;
+    const Mask down = active & arrived;
+    scale = xsimd::select(down, scale * F32(0.25F), scale);
+    for (std::size_t k = 0; k < 3; ++k) {
+      trial.c[k] = xsimd::select(down, trial.c[k] + trial.c[k], trial.c[k]);
+      goal[k] = xsimd::select(down, search.target[k] * scale, goal[k]);
+    }
+    const SigmoidSums sums_there = sums_of(trial, table);
+    const Residual left_there = residual(sums_there, goal);
+    const Mask better = down | (active & (left_there.size < left.size) & (length_of(trial) <= search.steep));
+    for (std::size_t k = 0; k < 3; ++k) {
+      a.c[k] = xsimd::select(better, trial.c[k], a.c[k]);
+      left.r[k] = xsimd::select(better, left_there.r[k], left.r[k]);
+    }
+    for (std::size_t k = 0; k < 9; ++k) sums.j[k] = xsimd::select(better, sums_there.j[k], sums.j[k]);
+    left.size = xsimd::select(better, left_there.size, left.size);
+    const F32 doubled = part + part;
+    const F32 longer = xsimd::select(down | (doubled > one), one, doubled);
+    part = xsimd::select(better, longer, part * F32(0.25F));
+    active = active & (better | (part >= F32(kSigmoidShortest)));
+  }
+  const F32 root = xsimd::sqrt(scale);
+  for (auto& v : a.c) v = v * root;
+  return left.size;
+}
+
+// Lanes solved together, so that those which need more steps can be gathered from among them.
+inline constexpr std::size_t kSigmoidBatch = 512;
+
+/// What the first step leaves for those after it.
+struct SigmoidBatch {
+  alignas(64) float c[3][kSigmoidBatch];
+  alignas(64) float target[3][kSigmoidBatch];
+  alignas(64) float close[kSigmoidBatch];
+  alignas(
+      64) float inside[kSigmoidBatch];  // largest component that the start had; minus that outside the cube
+  alignas(64) float left[kSigmoidBatch];
+  alignas(64) std::uint16_t lane[kSigmoidBatch];
+  std::size_t count = 0;
+};
+
+/// The first step of a vector of lanes; queues those that need more.
+inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const SigmoidTable& table, Mask& bright,
+                               Mask& finite, SigmoidBatch& batch) noexcept {
+  const F32 zero(0.0F);
+  const F32 one(1.0F);
+  finite = (rgb[0] - rgb[0] == zero) & (rgb[1] - rgb[1] == zero) & (rgb[2] - rgb[2] == zero);
+  F32 v[3];
+  F32 target[3];
+  Mask inside = finite;
+  for (std::size_t k = 0; k < 3; ++k) {
+    target[k] = xsimd::select(finite, rgb[k], zero);
+    v[k] = limit_above(one, limit_below(zero, target[k]));
+    inside = inside & (v[k] == target[k]);
+  }
+  const F32 high = xsimd::max(xsimd::max(v[0], v[1]), v[2]);
+  const F32 low = xsimd::min(xsimd::min(v[0], v[1]), v[2]);
+  // The reflectance of 1 - colour is 1 - reflectance: only the dark half of the cube is searched.
+  bright = high + low > one;
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = xsimd::select(bright, one - v[k], v[k]);
+    target[k] = xsimd::select(bright, one - target[k], target[k]);
+  }
+  const F32 z = xsimd::max(xsimd::max(v[0], v[1]), v[2]);
+  const Mask black = z < F32(kSigmoidBlack);
+  const Mask grey = (v[0] == v[1]) & (v[1] == v[2]);
+  F32 lit[3];
+  for (std::size_t k = 0; k < 3; ++k) lit[k] = xsimd::select(black, F32(0.5F), v[k]);
+  const F32 lit_z = xsimd::select(black, F32(0.5F), z);
+  Coefficients out = start(lit, lit_z, table);
+  const SigmoidSums sums = sums_of(out, table);
+  const Residual left = residual(sums, target);
+  const Coefficients step = newton_step(sums, left);
+  const Mask near = left.size <= F32(kSigmoidNear) * z;
+  const F32 floor(kSigmoidDark);
+  const F32 close = F32(kSigmoidClose) * xsimd::select(z < floor, floor, z);
+  const Mask last = inside & near & is_last(left, step, close);
+  for (std::size_t k = 0; k < 3; ++k) out.c[k] = xsimd::select(near, out.c[k] + step.c[k], out.c[k]);
+  // Colours known without a search.
+  const F32 level = (lit_z - F32(0.5F)) / xsimd::sqrt(lit_z * (one - lit_z));
+  const Mask flat = inside & (black | grey);
+  const F32 known = xsimd::select(black, F32(-kSigmoidFar), level);
+  out.c[0] = xsimd::select(flat, zero, out.c[0]);
+  out.c[1] = xsimd::select(flat, zero, out.c[1]);
+  out.c[2] = xsimd::select(flat, known, out.c[2]);
+  std::uint64_t waiting = lane_bits(finite & ~flat & ~last);
+  if (waiting != 0) {
+    alignas(64) float values[8][kWidth];
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(values[k], out.c[k]);
+      store(values[3 + k], target[k]);
+    }
+    store(values[6], close);
+    store(values[7], xsimd::select(inside, z, -lit_z));
+    for (; waiting != 0; waiting &= waiting - 1) {
+      const auto i = static_cast<std::size_t>(__builtin_ctzll(waiting));
+      const std::size_t at = batch.count++;
+      for (std::size_t k = 0; k < 3; ++k) {
+        batch.c[k][at] = values[k][i];
+        batch.target[k][at] = values[3 + k][i];
+      }
+      batch.close[at] = values[6][i];
+      batch.inside[at] = values[7][i];
+      batch.lane[at] = static_cast<std::uint16_t>(lane + i);
+    }
+  }
+  return out;
+}
+
+/// The further steps of the lanes that wait.
+inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcept {
+  // The last vector is filled up with copies of its first lane.
+  for (std::size_t at = batch.count; at % kWidth != 0; ++at) {
+    const std::size_t from = at / kWidth * kWidth;
+    for (std::size_t k = 0; k < 3; ++k) {
+      batch.c[k][at] = batch.c[k][from];
+      batch.target[k][at] = batch.target[k][from];
+    }
+    batch.close[at] = batch.close[from];
+    batch.inside[at] = batch.inside[from];
+  }
+  const F32 one(1.0F);
+  for (std::size_t at = 0; at < batch.count; at += kWidth) {
+    Coefficients a;
+    Search search;
+    for (std::size_t k = 0; k < 3; ++k) {
+      a.c[k] = load(batch.c[k] + at);
+      search.target[k] = load(batch.target[k] + at);
+    }
+    search.close = load(batch.close + at);
+    const F32 signed_z = load(batch.inside + at);
+    const Mask inside = signed_z >= F32(0.0F);
+    const F32 z = xsimd::abs(signed_z);
+    search.steep = xsimd::select(inside, F32(kSigmoidFar), F32(kSigmoidSteep) / xsimd::sqrt(z));
+    search.steps = xsimd::select(inside, F32(static_cast<float>(kSigmoidSteps)),
+                                 F32(static_cast<float>(kSigmoidStepsOutside)));
+    search.scale = one;
+    for (int level = 0; level < kSigmoidLevels; ++level) {
+      const Mask dark = inside & (z * search.scale < F32(kSigmoidLit));
+      search.scale = xsimd::select(dark, search.scale * F32(4.0F), search.scale);
+    }
+    const Mask brightened = search.scale > one;
+    if (lane_bits(brightened) != 0) {
+      F32 lit[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        lit[k] = xsimd::select(brightened, search.target[k] * search.scale, F32(0.5F));
+      }
+      const Coefficients first = start(lit, xsimd::max(xsimd::max(lit[0], lit[1]), lit[2]), table);
+      for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(brightened, first.c[k], a.c[k]);
+    }
+    store(batch.left + at, refine(a, search, table));
+    for (std::size_t k = 0; k < 3; ++k) store(batch.c[k] + at, a.c[k]);
+  }
+}
+
+void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
+                   std::uint64_t* unsolved, std::size_t n) noexcept {
+  SigmoidBatch batch;
+  for (std::size_t first = 0; first < n; first += kSigmoidBatch) {
+    const std::size_t count = n - first < kSigmoidBatch ? n - first : kSigmoidBatch;
+    std::uint64_t bright_lanes[kSigmoidBatch / 64] = {};
+    batch.count = 0;
+    for (std::size_t lane = 0; lane < count; lane += kWidth) {
+      F32 in[3];
+      for (std::size_t k = 0; k < 3; ++k) in[k] = load(rgb[k] + first + lane);
+      Mask bright, finite;
+      const Coefficients out = first_step(in, lane, table, bright, finite, batch);
+      bright_lanes[lane / 64] |= lane_bits(bright) << (lane % 64);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const F32 turned = xsimd::select(bright, -out.c[k], out.c[k]);
+        store(c[k] + first + lane, xsimd::select(finite, turned, F32(__builtin_nanf(""))));
+      }
+    }
+    for (std::size_t block = 0; block < count / kLanes; ++block) unsolved[first / kLanes + block] = 0;
+    if (batch.count == 0) continue;
+    refine_batch(batch, table);
+    for (std::size_t at = 0; at < batch.count; ++at) {
+      const std::size_t lane = batch.lane[at];
+      const bool turn = ((bright_lanes[lane / 64] >> (lane % 64)) & 1U) != 0;
+      for (std::size_t k = 0; k < 3; ++k) c[k][first + lane] = turn ? -batch.c[k][at] : batch.c[k][at];
+      if (!(batch.left[at] <= kSigmoidUnsolved)) {
+        unsolved[(first + lane) / kLanes] |= std::uint64_t{1} << (lane % kLanes);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spectile::kernels
