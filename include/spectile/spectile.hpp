@@ -12,4 +12,5 @@
 #include <spectile/result.hpp>
 #include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <spectile/spectral_texture.hpp>
 #include <spectile/upsample.hpp>

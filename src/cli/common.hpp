@@ -77,6 +77,7 @@ void catch_signals();
 // Each adds its subcommand; `exit` receives the code when it has run.
 void add_demo(CLI::App& app, int& exit);
 void add_upsample(CLI::App& app, int& exit);
+void add_expand(CLI::App& app, int& exit);
 void add_relight(CLI::App& app, int& exit);
 void add_project(CLI::App& app, int& exit);
 void add_info(CLI::App& app, int& exit);

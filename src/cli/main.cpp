@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   int exit = kOk;
   add_demo(app, exit);
   add_upsample(app, exit);
+  add_expand(app, exit);
   add_relight(app, exit);
   add_project(app, exit);
   add_info(app, exit);

@@ -1,7 +1,6 @@
 // The attributes by which a file says how its spectra, or its coefficients, were made.
 #include "src/io/method_attributes.hpp"
 
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <charconv>
@@ -92,11 +91,6 @@ std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampl
   return out;
 }
 
-bool holds_coefficients(const Imf::Header& header) {
-  return text_of(header, "spectileCoefficients").has_value() &&
-         header.channels().findChannel("spectile.c0") != nullptr;
-}
-
 Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& path) {
   const auto layout = text_of(header, "spectileCoefficients");
   if (layout != kLayout) return damaged(path, "spectileCoefficients");
@@ -119,7 +113,12 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   const auto observer = text_of(header, "spectileObserver");
   if (observer != "1931" && observer != "1964") return damaged(path, "spectileObserver");
   if (observer == "1964") options.observer = Observer::kCie1964;
-  if (text_of(header, "spectileKeepNegative")) options.negative = NegativeSamples::kKeep;
+  if (const auto keep = text_of(header, "spectileKeepNegative")) {
+    if (keep != "yes") return damaged(path, "spectileKeepNegative");
+    options.negative = NegativeSamples::kKeep;
+  }
+  const std::string light_name = light_name_of(header);
+  if (light_name.empty()) return damaged(path, "spectileLight");
   if (const auto samples = text_of(header, "spectileLightSamples")) {
     const auto pairs = parse_tuples(*samples, 2);
     if (!pairs) return damaged(path, "spectileLightSamples");
@@ -132,8 +131,18 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
     const auto light = MeasuredSpectrum::from_samples(wavelengths, values);
     if (!light) return damaged(path, "spectileLightSamples");
     options.light = *light;
+  } else if (light_name != "D65") {
+    return damaged(path, "spectileLightSamples");
   }
-  return Upsampler::create(*method, *quantity, *bands, options);
+  auto upsampler = Upsampler::create(*method, *quantity, *bands, options);
+  if (!upsampler && upsampler.error().code == ErrorCode::kBadArgument) {
+    return make_error(ErrorCode::kBadFile, "{}: {}", path, upsampler.error().message);
+  }
+  return upsampler;
+}
+
+std::string light_name_of(const Imf::Header& header) {
+  return text_of(header, "spectileLight").value_or("");
 }
 
 }  // namespace spectile::io

@@ -21,11 +21,11 @@ std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampl
                                                                    const MethodOptions& options,
                                                                    bool coefficients);
 
-/// Whether a part holds coefficients.
-bool holds_coefficients(const Imf::Header& header);
-
 /// The upsampler that made a part's coefficients. Errors: kBadFile for attributes that are missing or
-/// damaged, and those of Upsampler::create().
+/// damaged, or from which no upsampler can be made.
 Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& path);
+
+/// Name of the light that the spectra of a part were made for; empty where it does not say.
+std::string light_name_of(const Imf::Header& header);
 
 }  // namespace spectile::io

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "src/base/errors.hpp"
+#include "src/io/coefficient_source.hpp"
 #include "src/io/spectral_layout.hpp"
 
 namespace spectile::io {
@@ -69,6 +70,10 @@ Result<void> RgbSource::choose(const std::string& layer) {
     if (parse_spectral_channel(it.name())) {
       return make_error(ErrorCode::kBadFile, "{}: holds spectral channels already (\"{}\")", path, it.name());
     }
+  }
+  if (claims_coefficients(header())) {
+    return make_error(ErrorCode::kBadFile,
+                      "{}: holds coefficients already; expanding turns them into spectra", path);
   }
   const Imf::ChannelList& channels = header().channels();
   for (const std::string& name : {red_, green_, blue_}) {

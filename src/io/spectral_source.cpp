@@ -8,6 +8,7 @@
 #include <map>
 
 #include "src/base/errors.hpp"
+#include "src/io/coefficient_source.hpp"
 #include "src/io/spectral_layout.hpp"
 
 namespace spectile::io {
@@ -47,6 +48,10 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
     if (source->input_->deep(part)) continue;
     channels = spectral_channels(source->input_->header(part), wanted);
     source->part_ = part;
+  }
+  for (int part = 0; part < source->input_->parts() && !channels; ++part) {
+    if (source->input_->deep(part) || !claims_coefficients(source->input_->header(part))) continue;
+    return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra", path);
   }
   if (!channels) {
     return make_error(ErrorCode::kBadFile, "{}: has no {}spectral channels (T.*nm, S0.*nm)", path,

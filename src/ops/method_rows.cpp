@@ -24,20 +24,6 @@ void normalize(const float* const rgb[3], float* const out[3], float* scale, std
 
 }  // namespace
 
-float largest_sample(const Upsampler& upsampler) {
-  float largest = 0;
-  for (const auto& band : upsampler.basis()) {
-    for (const double v : band) largest = std::max(largest, std::abs(static_cast<float>(v)));
-  }
-  if (mixes_bases(upsampler)) return largest;
-  // A sigmoid is at most 1, times a scale of twice the component, times its white.
-  const kernels::SigmoidTable& table = upsampler.sigmoid()->table;
-  for (std::size_t b = 0; b < table.bands; ++b) {
-    largest = std::max(largest, 2 * table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
-  }
-  return largest;
-}
-
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
            const Coefficients& out, std::uint64_t* unsolved, std::size_t n) {
   if (mixes_bases(upsampler)) {
@@ -62,20 +48,6 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;
   kernels.sigmoid_blocks(spectra, c, scale, upsampler.sigmoid()->table.rows, white, bands, blocks, stream);
-}
-
-void expand_rows(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
-                 const float* scale, void* const* bands, bool half, std::size_t n) {
-  const std::size_t count = upsampler.bands().count();
-  if (mixes_bases(upsampler)) {
-    const auto kernel = half ? kernels.smits_rows_half : kernels.smits_rows_float;
-    const float lowest = half ? std::max(upsampler.lowest(), -kernels::kHalfMax) : upsampler.lowest();
-    kernel(bands, c, upsampler.table(), lowest, count, n);
-    return;
-  }
-  const bool white = upsampler.quantity() == Quantity::kIlluminant;
-  const auto kernel = half ? kernels.sigmoid_rows_half : kernels.sigmoid_rows_float;
-  kernel(bands, c, scale, upsampler.sigmoid()->table.rows, white, count, n);
 }
 
 }  // namespace spectile::rows

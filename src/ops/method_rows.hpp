@@ -23,9 +23,6 @@ inline bool has_scale(const Upsampler& upsampler) {
   return !mixes_bases(upsampler) && upsampler.quantity() != Quantity::kReflectance;
 }
 
-/// Largest sample that a colour whose largest component is 1 can have.
-float largest_sample(const Upsampler& upsampler);
-
 /// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
 /// that has none. `out` may be `rgb`.
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
@@ -34,10 +31,6 @@ void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, cons
 /// Coefficients to blocks of samples.
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
                    const float* scale, float* spectra, std::size_t blocks, bool stream);
-
-/// Coefficients to a row of samples for each band, floats or halves; any n.
-void expand_rows(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
-                 const float* scale, void* const* bands, bool half, std::size_t n);
 
 /// limit_gamut() on a row of `n` lanes, padded to a multiple of 64 with zeros.
 GamutReport limit_gamut(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],

@@ -27,6 +27,7 @@ Result<WorkingSpace> working_space(const Bands& bands, Quantity quantity, const 
                         bands.description());
     }
     for (double& v : out.white) v /= luminance;
+    out.luminance = luminance;
   }
   for (std::size_t b = 0; b < bands.count(); ++b) {
     for (std::size_t k = 0; k < 3; ++k) out.white_xyz[k] += out.white[b] * xyz_weights[b][k];

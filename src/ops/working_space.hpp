@@ -13,6 +13,8 @@ namespace spectile {
 struct WorkingSpace {
   std::vector<std::array<double, 3>> weights;  ///< [bands]; times `white`, they sum to 1, 1, 1
   std::vector<double> white;  ///< [bands]: samples of the spectrum of RGB 1, 1, 1: ones, or the light's
+  /// Of the light in the bands on its own scale, which `white` is divided by; 1 for reflectances.
+  double luminance = 1;
   std::array<double, 3> white_xyz{};  ///< its XYZ, Y = 1
   Matrix3 rgb_to_xyz{};               ///< with that white
 };

@@ -1,0 +1,64 @@
+// The bands of a spectral output: their channels, the attributes that go with them, and their samples,
+// packed.
+#pragma once
+
+#include <cstdint>
+#include <spectile/image.hpp>
+#include <string>
+#include <vector>
+
+#include "kernels/abi.hpp"
+#include "src/io/exr_writer.hpp"
+#include "src/ops/sampled_rows.hpp"
+
+namespace spectile::io {
+
+/// Appends a channel for each band to a spec.
+void add_band_channels(std::vector<ChannelSpec>& channels, const Bands& bands, Quantity quantity,
+                       PixelType type);
+
+/// Names of the layout's own attributes.
+std::vector<std::string> layout_attribute_names();
+/// Appends the layout's own attributes: name and text.
+void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity);
+
+/// Coefficients of a line, at multiples of 64 bytes and readable up to whole blocks.
+struct LineCoefficients {
+  const float* c[3] = {nullptr, nullptr, nullptr};
+  const float* scale = nullptr;  ///< null where there is none
+};
+
+/// Largest magnitude in a row; NaN where it holds one.
+float largest_magnitude(const float* row, std::size_t n);
+
+/// Packs the samples of a line's bands into an output line.
+class BandPacker {
+ public:
+  /// Work space of one slot.
+  struct Work {
+    std::vector<void*> rows;  // where each band of the present segment goes
+    FloatBuffer block;        // spectra of 64 pixels, to count those that a half cannot hold
+  };
+
+  /// The kernels and the rows must outlive it.
+  BandPacker(const kernels::KernelTable& kernels, const rows::SampledRows& rows, const ImageOptions& options);
+
+  /// Errors: kOutOfMemory.
+  Result<Work> work() const;
+
+  /// Packs `width` pixels at `packed`, the first band being the writer's channel `first`. Returns how many
+  /// have a sample that was limited to the largest half.
+  std::uint64_t line(Work& work, const LineCoefficients& of, std::size_t width, const ExrWriter& writer,
+                     std::size_t first, std::byte* packed) const;
+
+ private:
+  bool may_exceed_half(const LineCoefficients& of, std::size_t width) const;
+  std::uint64_t count_limited(Work& work, const LineCoefficients& of, std::size_t width) const;
+
+  const kernels::KernelTable& kernels_;
+  const rows::SampledRows& rows_;
+  bool half_ = false;
+  std::size_t segment_ = 0;
+};
+
+}  // namespace spectile::io
