@@ -18,6 +18,7 @@ using kernels::kSigmoidWhite;
 // Nodes along each axis of the grid that the fast search starts from: fine enough that one step suffices for
 // most colours, small enough for the second-level cache.
 constexpr int kSteps = 12;
+constexpr std::size_t kCells = std::size_t{kSteps} * kSteps * kSteps;
 
 std::size_t node_index(std::size_t most, std::size_t i, std::size_t j, std::size_t k, std::size_t steps) {
   return ((most * steps + i) * steps + j) * steps + k;
@@ -138,10 +139,10 @@ Triple nearest_start(std::size_t most, const Triple& q) {
 
 void fill_nodes(const SigmoidSums& sums, float* nodes) {
   for (std::size_t most = 0; most < 3; ++most) {
-    for (std::size_t at = 0; at < kSteps * kSteps * kSteps; ++at) {
+    for (std::size_t at = 0; at < kCells; ++at) {
       const Triple q = {centre(at / (kSteps * kSteps), kSteps), centre(at / kSteps % kSteps, kSteps),
                         centre(at % kSteps, kSteps)};
-      float* const node = nodes + (most * kSteps * kSteps * kSteps + at) * kSigmoidNode;
+      float* const node = nodes + (most * kCells + at) * kSigmoidNode;
       Triple c = nearest_start(most, q);
       const Triple rgb = sigmoid_node_rgb(most, q);
       // A node without coefficients stays 0: the search from it takes more steps.
@@ -182,7 +183,7 @@ std::vector<double> sigmoid_start_nodes(const Bands& bands, const WorkingSpace& 
 
 Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space) {
   const std::size_t n = bands.count();
-  const std::size_t nodes = std::size_t{3} * kSteps * kSteps * kSteps;
+  const std::size_t nodes = 3 * kCells;
   const auto padded = [](std::size_t floats) { return (floats + 15) / 16 * 16; };
   const std::size_t sizes[3] = {padded(nodes * kSigmoidNode), padded(n * kSigmoidRow), padded(4 * n)};
   auto memory = FloatBuffer::create(sizes[0] + sizes[1] + sizes[2]);

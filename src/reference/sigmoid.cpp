@@ -99,7 +99,7 @@ void start(const float v[3], float c[3], const SigmoidTable& table) {
   const float q[3] = {1.0F - std::sqrt(1.0F - z), std::sqrt(v[(most + 1) % 3] * inverse),
                       std::sqrt(v[(most + 2) % 3] * inverse)};
   const auto steps = static_cast<float>(table.steps);
-  std::int32_t node = static_cast<std::int32_t>(most);
+  auto node = static_cast<std::int32_t>(most);
   float d[3];
   for (std::size_t i = 0; i < 3; ++i) {
     const float scaled = q[i] * steps;
@@ -182,7 +182,7 @@ float refine(float c[3], const Search& search, const SigmoidTable& table) {
 }  // namespace
 
 float half_inverse_root(float t) noexcept {
-  const float y0 = std::bit_cast<float>(kRootGuess - (std::bit_cast<std::uint32_t>(t) >> 1));
+  const auto y0 = std::bit_cast<float>(kRootGuess - (std::bit_cast<std::uint32_t>(t) >> 1));
   const float f = (y0 * y0) * t;
   const float y1 = y0 * fused(f, f - kRootSecond, kRootFirst);
   return y1 * fused(-(y1 * y1), t, kRootThird);
