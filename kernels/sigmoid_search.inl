@@ -93,7 +93,9 @@ inline F32 length_of(const Coefficients& a) noexcept {
   return (xsimd::abs(a.c[0]) + xsimd::abs(a.c[1])) + xsimd::abs(a.c[2]);
 }
 inline Mask is_last(const Residual& left, const Coefficients& step, F32 close) noexcept {
-  return (left.size * length_of(step) <= close) & (left.size <= F32(kSigmoidNear));
+  // A step of no length stands for one that was not finite.
+  const F32 length = length_of(step);
+  return (left.size * length <= close) & (left.size <= F32(kSigmoidNear)) & (length > F32(0.0F));
 }
 
 /// Start coefficients for colours in the dark half of the cube: the expansion around the nearest node.
@@ -334,7 +336,7 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTa
       const Coefficients out = first_step(in, lane, table, bright, finite, batch);
       bright_lanes[lane / 64] |= lane_bits(bright) << (lane % 64);
       for (std::size_t k = 0; k < 3; ++k) {
-        const F32 turned = xsimd::select(bright, -out.c[k], out.c[k]);
+        const F32 turned = xsimd::select(bright, out.c[k] * F32(-1.0F), out.c[k]);
         store(c[k] + first + lane, xsimd::select(finite, turned, F32(__builtin_nanf(""))));
       }
     }

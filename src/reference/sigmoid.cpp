@@ -88,7 +88,9 @@ float length_of(const float c[3]) {
   return (std::abs(c[0]) + std::abs(c[1])) + std::abs(c[2]);
 }
 bool is_last(float size, const float step[3], float close) {
-  return size * length_of(step) <= close && size <= kSigmoidNear;
+  // A step of no length stands for one that was not finite.
+  const float length = length_of(step);
+  return size * length <= close && size <= kSigmoidNear && length > 0.0F;
 }
 
 /// Start coefficients for a colour in the dark half of the cube: the expansion around the nearest node.

@@ -34,7 +34,7 @@ SigmoidTable default_table() {
 /// Three planes of n: triples of telling values (cube corners, edges and faces, near black and near white,
 /// just and far outside the cube, no colour at all) in an order that mixes them, between ordinary colours.
 Floats telling_colours(std::size_t n, std::uint32_t seed) {
-  const float values[] = {0.0F,  -0.0F,    kTiny, 0x1p-41F, 0x1p-40F, 1e-4F, 0.02F, 0.5F, 1.0F - 0x1p-24F,
+  const float values[] = {0.0F,  -0.0F,    kTiny, 0x1p-26F, 0x1p-25F, 1e-4F, 0.02F, 0.5F, 1.0F - 0x1p-24F,
                           1.0F,  1.00001F, 1.2F,  -1e-3F,   -0.3F,    70000, kMost, kNan, kInf,
                           -kInf, 0.25F,    0.9F,  -kTiny};
   constexpr std::size_t kCount = std::size(values);

@@ -56,9 +56,28 @@ TEST(Sigmoid, SlowTheCubesColoursReturnOnAFineGrid) {
 }
 
 TEST(Sigmoid, ColoursNearBlackAndNearWhiteReturn) {
-  for (const float part : {0.3F, 0.1F, 0.03F, 0.01F}) {
+  for (const float part : {0.3F, 0.1F, 0.01F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-9F}) {
     expect_exact(near_black(17, part), "black + " + std::to_string(part));
     expect_exact(near_white(17, part), "white - " + std::to_string(part));
+  }
+}
+
+TEST(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
+  const auto rgb = lanes_of({{3.75e-6F, 0, 1.6875e-5F},
+                             {3.75e-6F, 0, 1.25e-6F},
+                             {5.625e-7F, 0, 1.875e-7F},
+                             {0, 0, 3.125e-7F},
+                             {2.5e-5F, 0, 3.125e-5F},
+                             {1, 1, 0.999999642F},
+                             {0.999989986F, 1, 0.999998748F},
+                             {6.11139628e-9F, 0, 6.82325396e-9F}});
+  for (const char* bands : {"380:780:5", "360:830:5", "400:700:10"}) {
+    const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse(bands));
+    const RoundTrip result = round_trip(upsampler, rgb);
+    // What is darker than the place of a sample's half comes back as the nearest that there is.
+    EXPECT_LE(result.rgb, 2e-6) << bands << ", lane " << result.worst;
+    EXPECT_LE(result.ciede2000, 3e-3) << bands;
+    EXPECT_EQ(coefficients_of(upsampler, rgb).unsolved.outside, 0U) << bands;
   }
 }
 
