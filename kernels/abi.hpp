@@ -131,15 +131,22 @@ struct KernelTable {
 
   // Sigmoid spectra. These alone use fused multiply-adds, written below as fma: one rounding, the same bits
   // everywhere. With x = fma(fma(c0, lambda, c1), lambda, c2) and r half the inverse square root of
-  // fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24):
+  // fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24 up to
+  // x = 2^62, 3.1 * 2^-24 beyond):
   // sample = fma(x, r, 0.5) limited to [0, 1], then times the band's white, then times the lane's scale, each
   // where there is one. Source: Jakob, Hanika, A Low-Dimensional Function Space for Efficient Spectral
   // Upsampling, Computer Graphics Forum 38(2), 2019.
-  /// coefficients for which the weights' sums over the samples are rgb. Bit i of unsolved[i / kLanes]: no
-  /// coefficients come within 1e-5 of it; it keeps those that came nearest. Greys give c0 = c1 = 0; 0, 0, 0
+  /// coefficients for which the weights' sums over the samples are rgb. Bit i of unsolved[i / kLanes]: none
+  /// come within 1e-5 of it (1 % of the largest component, or 2^-22, for dark ones), or none were found. Greys give c0 = c1 = 0; 0, 0, 0
   /// and 1, 1, 1 give exactly 0 and 1; a component that is not finite gives NaN. n a multiple of kLanes.
   void (*sigmoid_solve)(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
                         std::uint64_t* unsolved, std::size_t n) noexcept;
+  /// the same for what sigmoid_solve did not find, step by step along the line from the grey of luminance
+  /// y = ((w0 * r) + (w1 * g)) + (w2 * b): reached = 1 with coefficients for rgb, or the part of the line that
+  /// a sigmoid has, with the coefficients there; 0 with those of black or white where y is not inside (0, 1).
+  /// A component that is not finite gives NaN and 1. n a multiple of kLanes.
+  void (*sigmoid_reach)(float* const c[3], float* reached, const float* const rgb[3],
+                        const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept;
   /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its
   /// white
   void (*sigmoid_blocks)(float* dst, const float* const c[3], const float* scale, const float* rows,
@@ -157,7 +164,7 @@ struct KernelTable {
   // Gamut.
   /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance
   /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others
-  /// and NaN stay as they are. Bit i of moved[i / kLanes]: it was outside.
+  /// and those with a component that is not finite stay as they are. Bit i of moved[i / kLanes]: it was outside.
   void (*limit_gamut)(float* const rgb[3], const float weights[3], float lowest, float highest,
                       std::uint64_t* moved, std::size_t n) noexcept;
 

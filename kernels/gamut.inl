@@ -17,8 +17,10 @@ void limit_gamut(float* const rgb[3], const float weights[3], float lowest, floa
       const std::size_t at = block * kLanes + lane;
       F32 v[3];
       for (std::size_t k = 0; k < 3; ++k) v[k] = load(rgb[k] + at);
-      const Mask outside =
-          (v[0] < low) | (v[1] < low) | (v[2] < low) | (high < v[0]) | (high < v[1]) | (high < v[2]);
+      const F32 zero(0.0F);
+      const Mask finite = (v[0] - v[0] == zero) & (v[1] - v[1] == zero) & (v[2] - v[2] == zero);
+      const Mask outside = finite & ((v[0] < low) | (v[1] < low) | (v[2] < low) | (high < v[0]) |
+                                     (high < v[1]) | (high < v[2]));
       const std::uint64_t bits = lane_bits(outside);
       if (bits == 0) continue;
       outside_lanes |= bits << lane;

@@ -5,6 +5,7 @@
 #include "kernels/exponential.inl"
 #include "kernels/gamut.inl"
 #include "kernels/sigmoid.inl"
+#include "kernels/sigmoid_reach.inl"
 #include "kernels/sigmoid_search.inl"
 #include "kernels/upsample.inl"
 
@@ -55,6 +56,7 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .smits_rows_half = smits_rows_half,
     .smits_fold = smits_fold,
     .sigmoid_solve = sigmoid_solve,
+    .sigmoid_reach = sigmoid_reach,
     .sigmoid_blocks = sigmoid_blocks,
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,

@@ -33,8 +33,11 @@ inline constexpr float kSigmoidDark = 0.05F;
 /// Steps count as good, and the first one is taken, only from this near; the first relative to the largest
 /// component.
 inline constexpr float kSigmoidNear = 0.05F;
-/// A colour whose residual stays above this has no coefficients.
+/// A colour whose residual stays above this, or above this part of its largest component, has no coefficients;
+/// the third is what rounding may leave of colours so dark that their part is less.
 inline constexpr float kSigmoidUnsolved = 1e-5F;
+inline constexpr float kSigmoidMet = 0.01F;
+inline constexpr float kSigmoidRounding = 0x1p-22F;
 /// Coefficients of colours outside the cube may sum to this, over the root of the largest component of the
 /// colour that the search starts from: beyond it a spectrum is a step between two bands, and no colour of a
 /// reflectance is much further out.
@@ -43,5 +46,23 @@ inline constexpr float kSigmoidSteep = 256.0F;
 inline constexpr int kSigmoidStepsOutside = 12;
 inline constexpr int kSigmoidSteps = 80;
 inline constexpr float kSigmoidShortest = 0x1p-12F;
+
+/// The way from a colour's grey to the colour, for what those searches do not find. The shortest part of it
+/// that is tried at once, the shortest part of a Newton step, and how many evaluations a place on the way may
+/// take: patient for colours in the cube, where a way across the far ends of the range turns sharply, and
+/// brief for those outside, where most ways end.
+struct ReachEffort {
+  float shortest, damped, tries;
+};
+inline constexpr ReachEffort kReachInside = {0x1p-12F, 0x1p-8F, 16.0F};
+inline constexpr ReachEffort kReachOutside = {0x1p-9F, 0.5F, 5.0F};
+/// The first part that is tried, evaluations at most, and how near (relative to the grey) places must be met.
+/// At the end steps go on as long as they halve the residual.
+inline constexpr float kReachFirst = 0.25F;
+inline constexpr int kReachSteps = 256;
+inline constexpr float kReachNear = 1e-3F;
+inline constexpr float kReachGain = 0.5F;
+/// Greys below this are black here: what is that dark and outside the cube may still be a colour's luminance.
+inline constexpr float kReachBlack = 0x1p-60F;
 
 }  // namespace spectile::kernels

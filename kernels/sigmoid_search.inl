@@ -142,9 +142,9 @@ struct Search {
   F32 steps;  // evaluations at most
 };
 
-/// Steps from coefficients for the brightened colours to those of the targets; 0 where it got there, else the
-/// residual that is left. A lane that is done stays as it is, so that no lane depends on its neighbours.
-inline F32 refine(Coefficients& a, const Search& search, const SigmoidTable& table) noexcept {
+/// Steps from coefficients for the brightened colours to those of the targets. A lane that is done stays as it
+/// is, so that no lane depends on its neighbours.
+inline void refine(Coefficients& a, const Search& search, const SigmoidTable& table) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
   F32 scale = search.scale;
@@ -165,7 +165,6 @@ inline F32 refine(Coefficients& a, const Search& search, const SigmoidTable& tab
     for (std::size_t k = 0; k < 3; ++k) trial.c[k] = a.c[k] + length * step.c[k];
     const Mask done = active & arrived & (scale == one);
     for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(done, trial.c[k], a.c[k]);
-    left.size = xsimd::select(done, zero, left.size);
     active = active & ~done;
     if (lane_bits(active) == 0) break;
     const Mask down = active & arrived;
@@ -190,7 +189,13 @@ inline F32 refine(Coefficients& a, const Search& search, const SigmoidTable& tab
   }
   const F32 root = xsimd::sqrt(scale);
   for (auto& v : a.c) v = v * root;
-  return left.size;
+}
+
+/// How much too large the residual of coefficients is for colours of which z is the largest component.
+inline F32 excess(const Coefficients& a, const F32 target[3], F32 z, const SigmoidTable& table) noexcept {
+  const Residual left = residual(sums_of(a, table), target);
+  return left.size -
+         xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), z * F32(kSigmoidMet)));
 }
 
 // Lanes solved together, so that those which need more steps can be gathered from among them.
@@ -203,7 +208,7 @@ struct SigmoidBatch {
   alignas(64) float close[kSigmoidBatch];
   alignas(
       64) float inside[kSigmoidBatch];  // largest component that the start had; minus that outside the cube
-  alignas(64) float left[kSigmoidBatch];
+  alignas(64) float excess[kSigmoidBatch];
   alignas(64) std::uint16_t lane[kSigmoidBatch];
   std::size_t count = 0;
 };
@@ -317,7 +322,8 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
       const Coefficients first = start(lit, xsimd::max(xsimd::max(lit[0], lit[1]), lit[2]), table);
       for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(brightened, first.c[k], a.c[k]);
     }
-    store(batch.left + at, refine(a, search, table));
+    refine(a, search, table);
+    store(batch.excess + at, excess(a, search.target, z, table));
     for (std::size_t k = 0; k < 3; ++k) store(batch.c[k] + at, a.c[k]);
   }
 }
@@ -347,7 +353,7 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTa
       const std::size_t lane = batch.lane[at];
       const bool turn = ((bright_lanes[lane / 64] >> (lane % 64)) & 1U) != 0;
       for (std::size_t k = 0; k < 3; ++k) c[k][first + lane] = turn ? -batch.c[k][at] : batch.c[k][at];
-      if (!(batch.left[at] <= kSigmoidUnsolved)) {
+      if (!(batch.excess[at] <= 0.0F)) {
         unsolved[(first + lane) / kLanes] |= std::uint64_t{1} << (lane % kLanes);
       }
     }

@@ -102,6 +102,9 @@ class Upsampler {
   const float* table() const noexcept { return table_.data(); }
   /// XYZ of RGB 1, 1, 1, and the matrix that goes with it: see above.
   const Matrix3& rgb_to_xyz() const noexcept { return rgb_to_xyz_; }
+  /// Weights of R, G and B in the luminance that limit_gamut() keeps: the primaries' under the light as the
+  /// whole visible range shows it, so that they do not depend on the bands.
+  const std::array<float, 3>& luminance() const noexcept { return luminance_; }
   /// The sigmoid's tables; null for the other methods.
   const SigmoidModel* sigmoid() const noexcept { return sigmoid_.get(); }
 
@@ -113,6 +116,7 @@ class Upsampler {
   UpsamplerOptions options_;
   float lowest_ = 0;
   Matrix3 rgb_to_xyz_{};
+  std::array<float, 3> luminance_{};
   std::vector<std::array<double, 7>> basis_;
   FloatBuffer table_;
   std::shared_ptr<const SigmoidModel> sigmoid_;
@@ -121,7 +125,7 @@ class Upsampler {
 /// What becomes of colours that a method cannot make.
 enum class OutOfGamut {
   kClip,  ///< they move to the nearest colour that it can make on the line to the grey of their luminance
-  kKeep,  ///< they stay: bases go on linearly, the sigmoid comes as near as it gets
+  kKeep,  ///< they stay: bases go on linearly, the sigmoid takes the coefficients of where they would move
 };
 
 /// Colours of a batch that the method could not make.
@@ -134,7 +138,8 @@ struct GamutReport {
 /// colours without a component below 0 (above 1 they go on linearly); for the sigmoid as a reflectance those
 /// that some sigmoid has, which is more than the cube of sRGB. Black, white and greys are always inside.
 /// Colours outside keep their luminance (limited to 0 to 1 for the sigmoid's reflectances) and their dominant
-/// wavelength. Shapes: rgb three times [lanes]. Errors: kBadArgument for samples not aligned.
+/// wavelength. What has a component that is not finite stays as it is and does not count. Shapes: rgb three
+/// times [lanes]. Errors: kBadArgument for samples not aligned.
 Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb,
                                 OutOfGamut policy = OutOfGamut::kClip, const Execution& how = {});
 
@@ -144,7 +149,9 @@ Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb,
 struct CoefficientLanes {
   ColorLanes c;
   ScalarLanes scale;     ///< of no lanes where the method needs none
-  GamutReport unsolved;  ///< lanes without coefficients: theirs are those that came nearest
+  /// Lanes without coefficients: theirs are those of the last colour that has some on the line from the grey
+  /// of their luminance, where limit_gamut() would move them.
+  GamutReport unsolved;
   static Result<CoefficientLanes> create(const Upsampler& upsampler, std::size_t lanes);
 };
 

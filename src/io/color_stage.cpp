@@ -38,7 +38,9 @@ float ColorStage::line(const Strip& strip, int line, const ColorLine& color, Lin
   stats.over_one += own.over_one;
   // Most lines have no colour that any method could not make.
   const bool bounded = !rows::mixes_bases(upsampler_) && options_.quantity == Quantity::kReflectance;
-  if (own.negative.count == 0 && !(bounded && own.over_one > 0)) return largest;
+  if (own.negative.count == 0 && !(bounded && own.over_one > 0) && !rows::misses_inside(upsampler_)) {
+    return largest;
+  }
   const auto policy = out_of_gamut_ == GamutPolicy::kClip ? OutOfGamut::kClip : OutOfGamut::kKeep;
   const GamutReport found = rows::limit_gamut(kernels_, upsampler_, rows, policy, width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);

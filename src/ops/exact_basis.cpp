@@ -1,6 +1,7 @@
 // Basis spectra whose colours are exactly the corners of the RGB cube, by quadratic programs.
 #include "src/ops/exact_basis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/data/tables.hpp"
@@ -98,7 +99,8 @@ std::optional<BasisTable> primary_decomposition(const Bands& bands, const Workin
   for (std::size_t b = 0; b < n; ++b) {
     const double red = (*solved)[b];
     const double green = (*solved)[n + b];
-    const double blue = 1 - red - green;
+    // Not below 0 by a rounding.
+    const double blue = std::max(0.0, 1 - red - green);
     const double white = space.white[b];
     out[b] = {white,       (green + blue) * white, (red + blue) * white, (red + green) * white,
               red * white, green * white,          blue * white};

@@ -1,5 +1,6 @@
 // Colours that a method cannot make, and the way to those that it can.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,21 +16,23 @@ namespace {
 
 using kernels::kLanes;
 
-// Halvings of the way between the cube and the colour: the place on it is then known to 2^-8.
-constexpr int kHalvings = 8;
+// Moves at most before a colour becomes its grey: where the scale of a lane follows its largest component, the
+// colour moved is a little brighter to the search, and may have to move again.
+constexpr int kMoves = 6;
 
-struct Luminance {
-  float weights[3];
-  explicit Luminance(const Upsampler& upsampler) {
-    for (std::size_t k = 0; k < 3; ++k) weights[k] = static_cast<float>(upsampler.rgb_to_xyz()[3 + k]);
-  }
-  float of(const float v[3]) const { return (weights[0] * v[0] + weights[1] * v[1]) + weights[2] * v[2]; }
-};
+float luminance_of(const Upsampler& upsampler, const float v[3]) {
+  const auto& weights = upsampler.luminance();
+  return (weights[0] * v[0] + weights[1] * v[1]) + weights[2] * v[2];
+}
+
+bool is_finite(const float* const rgb[3], std::size_t i) {
+  return std::isfinite(rgb[0][i]) && std::isfinite(rgb[1][i]) && std::isfinite(rgb[2][i]);
+}
 
 GamutReport count_negative(const float* const rgb[3], std::size_t n) {
   GamutReport report;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!(rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0)) continue;
+    if (!is_finite(rgb, i) || !(rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0)) continue;
     if (report.outside == 0) report.first = static_cast<std::int64_t>(i);
     ++report.outside;
   }
@@ -40,93 +43,72 @@ GamutReport limit_bases(const kernels::KernelTable& kernels, const Upsampler& up
                         OutOfGamut policy, std::size_t n) {
   const GamutReport report = count_negative(rgb, n);
   if (report.outside == 0 || policy == OutOfGamut::kKeep) return report;
-  const Luminance luminance(upsampler);
   for (std::size_t at = 0; at < n; at += kLanes) {
     float* const block[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     std::uint64_t moved = 0;
-    kernels.limit_gamut(block, luminance.weights, 0.0F, std::numeric_limits<float>::infinity(), &moved,
-                        kLanes);
+    kernels.limit_gamut(block, upsampler.luminance().data(), 0.0F, std::numeric_limits<float>::infinity(),
+                        &moved, kLanes);
   }
   return report;
 }
 
-/// Up to a block of colours outside the cube, solved together.
+/// Up to a block of colours that may be outside, solved together.
 struct Group {
-  alignas(64) float target[3][kLanes] = {};
-  alignas(64) float tried[3][kLanes] = {};
+  alignas(64) float rgb[3][kLanes] = {};
   alignas(64) float c[3][kLanes] = {};
   alignas(64) float scale[kLanes] = {};
+  alignas(64) float part[kLanes] = {};
   std::size_t lane[kLanes] = {};
   std::size_t count = 0;
 };
 
-/// Which colours of `tried` have coefficients.
-std::uint64_t solvable(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group) {
-  const float* const rgb[3] = {group.tried[0], group.tried[1], group.tried[2]};
+/// Which colours of a group have no coefficients.
+std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group) {
+  const float* const rgb[3] = {group.rgb[0], group.rgb[1], group.rgb[2]};
   const Coefficients out = {{group.c[0], group.c[1], group.c[2]},
                             has_scale(upsampler) ? group.scale : nullptr};
   std::uint64_t unsolved = 0;
-  solve(kernels, upsampler, rgb, out, &unsolved, kLanes);
-  if (has_scale(upsampler)) {
+  solve(kernels, upsampler, rgb, out, &unsolved, kLanes, group.part);
+  if (!has_scale(upsampler)) return unsolved;
+  for (std::size_t i = 0; i < group.count; ++i) {
     // No light has a colour without a positive component.
-    for (std::size_t i = 0; i < group.count; ++i) {
-      const bool dark = group.scale[i] == 0 && (rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0);
-      if (dark) unsolved |= std::uint64_t{1} << i;
+    if (group.scale[i] == 0 && (rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0)) {
+      unsolved |= std::uint64_t{1} << i;
+      group.part[i] = 0;
     }
   }
-  return ~unsolved;
+  return unsolved;
 }
 
-bool has(std::uint64_t lanes, std::size_t i) {
-  return ((lanes >> i) & 1U) != 0;
+void move_lane(const Upsampler& upsampler, Group& group, std::size_t i, bool to_grey) {
+  const float v[3] = {group.rgb[0][i], group.rgb[1][i], group.rgb[2][i]};
+  const float y = std::max(0.0F, luminance_of(upsampler, v));
+  const float grey = upsampler.quantity() == Quantity::kReflectance ? std::min(1.0F, y) : y;
+  const float part = to_grey ? 0.0F : group.part[i];
+  for (std::size_t k = 0; k < 3; ++k) group.rgb[k][i] = part == 0 ? grey : grey + part * (v[k] - grey);
 }
 
 void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
                  float* const rgb[3], OutOfGamut policy, GamutReport& report) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::fill(group.target[k] + group.count, group.target[k] + kLanes, 0.5F);
-    std::copy_n(group.target[k], kLanes, group.tried[k]);
+  for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
+  std::uint64_t outside = unsolvable(kernels, upsampler, group);
+  for (std::uint64_t left = outside; left != 0; left &= left - 1) {
+    const std::size_t lane = group.lane[std::countr_zero(left)];
+    if (report.outside++ == 0) report.first = static_cast<std::int64_t>(lane);
   }
-  const std::uint64_t inside = solvable(kernels, upsampler, group);
-  bool any = false;
-  for (std::size_t i = 0; i < group.count; ++i) {
-    if (has(inside, i)) continue;
-    if (report.outside++ == 0) report.first = static_cast<std::int64_t>(group.lane[i]);
-    any = true;
-  }
-  if (!any || policy == OutOfGamut::kKeep) return;
-  const Luminance luminance(upsampler);
-  const bool bounded = upsampler.quantity() == Quantity::kReflectance;
-  float grey[kLanes];
-  float low[kLanes] = {};
-  float high[kLanes];
-  std::fill_n(high, kLanes, 1.0F);
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const float v[3] = {group.target[0][i], group.target[1][i], group.target[2][i]};
-    const float y = std::max(0.0F, luminance.of(v));
-    grey[i] = bounded ? std::min(1.0F, y) : y;
-    // What is inside the cube has a sigmoid; a little less, for rounding.
-    float part = 1;
-    for (const float value : v) {
-      if (value < 0) part = std::min(part, grey[i] / (grey[i] - value));
-      if (bounded && value > 1) part = std::min(part, (1 - grey[i]) / (value - grey[i]));
+  if (outside != 0 && policy == OutOfGamut::kClip) {
+    for (int move = 0; outside != 0; ++move) {
+      for (std::uint64_t left = outside; left != 0; left &= left - 1) {
+        move_lane(upsampler, group, static_cast<std::size_t>(std::countr_zero(left)), move == kMoves);
+      }
+      if (move == kMoves) break;
+      outside = unsolvable(kernels, upsampler, group);
     }
-    low[i] = part * 0.999999F;
-  }
-  for (int step = 0; step < kHalvings; ++step) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const float part = 0.5F * (low[i] + high[i]);
-      for (std::size_t k = 0; k < 3; ++k) group.tried[k][i] = grey[i] + part * (group.target[k][i] - grey[i]);
-    }
-    const std::uint64_t good = solvable(kernels, upsampler, group);
-    for (std::size_t i = 0; i < kLanes; ++i) (has(good, i) ? low[i] : high[i]) = 0.5F * (low[i] + high[i]);
-  }
-  for (std::size_t i = 0; i < group.count; ++i) {
-    if (has(inside, i)) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      rgb[k][group.lane[i]] = grey[i] + low[i] * (group.target[k][i] - grey[i]);
+    for (std::size_t i = 0; i < group.count; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) rgb[k][group.lane[i]] = group.rgb[k][i];
     }
   }
+  group.count = 0;
 }
 
 GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& upsampler,
@@ -135,20 +117,14 @@ GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& 
   const float highest =
       upsampler.quantity() == Quantity::kReflectance ? 1.0F : std::numeric_limits<float>::infinity();
   Group group;
-  const auto outside = [&](std::size_t i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!std::isfinite(rgb[k][i])) return false;
-      if (rgb[k][i] < 0 || rgb[k][i] > highest) return true;
-    }
-    return false;
-  };
+  const bool everywhere = misses_inside(upsampler);
+  const auto beyond = [highest](float v) { return v < 0 || v > highest; };
   for (std::size_t i = 0; i < n; ++i) {
-    if (!outside(i)) continue;
-    for (std::size_t k = 0; k < 3; ++k) group.target[k][group.count] = rgb[k][i];
+    if (!is_finite(rgb, i)) continue;
+    if (!everywhere && !beyond(rgb[0][i]) && !beyond(rgb[1][i]) && !beyond(rgb[2][i])) continue;
+    for (std::size_t k = 0; k < 3; ++k) group.rgb[k][group.count] = rgb[k][i];
     group.lane[group.count++] = i;
-    if (group.count < kLanes) continue;
-    limit_group(kernels, upsampler, group, rgb, policy, report);
-    group.count = 0;
+    if (group.count == kLanes) limit_group(kernels, upsampler, group, rgb, policy, report);
   }
   if (group.count > 0) limit_group(kernels, upsampler, group, rgb, policy, report);
   return report;

@@ -24,9 +24,14 @@ inline bool has_scale(const Upsampler& upsampler) {
 }
 
 /// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
-/// that has none. `out` may be `rgb`.
+/// that has none; it gets those of the last colour on the line from its grey that has some, and its `part`
+/// [n], where asked for, is how much of that line that is, else 1. `out` may be `rgb`.
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
-           const Coefficients& out, std::uint64_t* unsolved, std::size_t n);
+           const Coefficients& out, std::uint64_t* unsolved, std::size_t n, float* part = nullptr);
+
+/// Whether some colours without a component outside [0, 1], or [0, infinity) where it has a scale, are none of
+/// the method's.
+bool misses_inside(const Upsampler& upsampler);
 
 /// Coefficients to blocks of samples.
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],

@@ -81,22 +81,46 @@ struct State {
   double gap() const { return (lower.dot(x) + upper.dot(room())) / static_cast<double>(2 * x.size()); }
 };
 
+/// Whether the multipliers prove that no point of the box meets the equalities (Farkas): their combination
+/// asks for more than it has anywhere.
+bool proves_infeasible(const Matrix& a, const Vector& b, const Vector& y) {
+  const double size = y.lpNorm<1>();
+  if (!(size > 0) || !std::isfinite(size)) return false;
+  const Vector combined = a.transpose() * y;
+  return b.dot(y) - combined.cwiseMax(0.0).sum() > 1e-9 * size;
+}
+
+/// How far a state is from the minimum: 1 is as near as doubles allow.
+double distance_of(const Vector& primal, const Vector& dual, double gap) {
+  return std::max({primal.lpNorm<Eigen::Infinity>() / kEqualityTolerance, gap / 1e-13,
+                   dual.lpNorm<Eigen::Infinity>() / 1e-9});
+}
+
+// What a state may be off where the steps break down before it is there: the last of them mostly improve what
+// polished() mends anyhow.
+constexpr double kNearEnough = 1e5;
+
 /// The state at the minimum, or nothing where the equalities cannot be met.
 std::optional<State> interior_point(const Matrix& h, const Vector& g, const Matrix& a, const Vector& b) {
   const Eigen::Index n = h.rows();
   const Eigen::Index m = a.rows();
   State s{Vector::Constant(n, 0.5), Vector::Zero(m), Vector::Ones(n), Vector::Ones(n)};
   KktSystem kkt(h, a);
+  std::optional<State> best;
+  double best_distance = kNearEnough;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Vector room = s.room();
     const Vector dual = h * s.x - g - a.transpose() * s.y - s.lower + s.upper;
     const Vector primal = a * s.x - b;
     const double gap = s.gap();
-    if (primal.lpNorm<Eigen::Infinity>() < kEqualityTolerance && gap < 1e-13 &&
-        dual.lpNorm<Eigen::Infinity>() < 1e-9) {
-      return s;
+    const double distance = distance_of(primal, dual, gap);
+    if (distance < 1) return s;
+    if (distance < best_distance) {
+      best = s;
+      best_distance = distance;
     }
-    if (!kkt.factorize((s.lower.array() / s.x.array() + s.upper.array() / room.array()).matrix())) return {};
+    if (!best && proves_infeasible(a, b, s.y)) return {};
+    if (!kkt.factorize((s.lower.array() / s.x.array() + s.upper.array() / room.array()).matrix())) break;
     // Complementarity products aimed at: those of the predictor, then of the corrector.
     const auto direction = [&](const Vector& at_lower, const Vector& at_upper, State& d) {
       Vector right(n + m);
@@ -131,9 +155,9 @@ std::optional<State> interior_point(const Matrix& h, const Vector& g, const Matr
     s.y += az * d.y;
     s.lower += az * d.lower;
     s.upper += az * d.upper;
-    if (!s.x.allFinite() || !s.lower.allFinite() || !s.upper.allFinite()) return {};
+    if (!s.x.allFinite() || !s.lower.allFinite() || !s.upper.allFinite()) break;
   }
-  return {};
+  return best;
 }
 
 /// Puts the variables at a bound onto it and solves for the others, so that the equalities hold to rounding.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/sigmoid_constants.hpp"
 #include "src/data/tables.hpp"
 #include "src/ops/sigmoid_search.hpp"
 
@@ -137,7 +138,17 @@ Triple nearest_start(std::size_t most, const Triple& q) {
   return c;
 }
 
-void fill_nodes(const SigmoidSums& sums, float* nodes) {
+/// Coefficients of a colour, or of the last one on the way to it from its grey that has some; whether it has.
+bool coefficients_of(const SigmoidSums& sums, const Triple& rgb, const Triple& luminance, Triple& c) {
+  constexpr int kTrials = 30;  // from near by
+  if (sums.solve(rgb, c, kTrials)) return true;
+  const double grey = luminance[0] * rgb[0] + luminance[1] * rgb[1] + luminance[2] * rgb[2];
+  return grey > 0 && grey < 1 && sums.reach(rgb, grey, c) == 1 && sums.solve(rgb, c);
+}
+
+/// Whether all nodes have coefficients.
+bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) {
+  bool all = true;
   for (std::size_t most = 0; most < 3; ++most) {
     for (std::size_t at = 0; at < kCells; ++at) {
       const Triple q = {centre(at / (kSteps * kSteps), kSteps), centre(at / kSteps % kSteps, kSteps),
@@ -145,14 +156,30 @@ void fill_nodes(const SigmoidSums& sums, float* nodes) {
       float* const node = nodes + (most * kCells + at) * kSigmoidNode;
       Triple c = nearest_start(most, q);
       const Triple rgb = sigmoid_node_rgb(most, q);
-      // A node without coefficients stays 0: the search from it takes more steps.
-      if (!sums.solve(rgb, c) && !sums.solve_from_grey(rgb, c)) continue;
-      store_node(expand(sums, most, q, c), kSteps, node);
-      for (std::size_t i = 0; i < kSigmoidNode; ++i) {
-        if (!std::isfinite(node[i])) std::fill_n(node, kSigmoidNode, 0.0F);
-      }
+      const bool solved = coefficients_of(sums, rgb, luminance, c);
+      all = all && solved;
+      if (solved) store_node(expand(sums, most, q, c), kSteps, node);
+      // A node without a colour, or too steep to be expanded, is a plain start.
+      const bool usable = solved && std::all_of(node, node + kSigmoidNode, [](float v) { return std::isfinite(v); });
+      if (usable) continue;
+      std::fill_n(node, kSigmoidNode, 0.0F);
+      for (std::size_t n = 0; n < 3; ++n) node[n] = static_cast<float>(c[n] * std::sqrt(rgb[most]));
     }
   }
+  return all;
+}
+
+/// Whether the cube's corners have coefficients that the fast search can find.
+bool has_corners(const SigmoidSums& sums, const Triple& luminance) {
+  for (int corner = 1; corner < 7; ++corner) {
+    const Triple rgb = {corner % 2 * 1.0, corner / 2 % 2 * 1.0, corner / 4 * 1.0};
+    Triple c{};
+    if (!coefficients_of(sums, rgb, luminance, c)) return false;
+    if (std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) > static_cast<double>(kernels::kSigmoidSteep)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -206,7 +233,9 @@ Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, co
     row[kSigmoidLambda] = static_cast<float>(lambda);
     row[kSigmoidWhite] = static_cast<float>(space.white[b]);
   }
-  fill_nodes(SigmoidSums(bands, space), node);
+  const SigmoidSums sums(bands, space);
+  const Triple luminance = {space.rgb_to_xyz[3], space.rgb_to_xyz[4], space.rgb_to_xyz[5]};
+  model->has_cube = fill_nodes(sums, luminance, node) && has_corners(sums, luminance);
   model->table = {n, rows, weights, node, kSteps};
   model->lowest_lambda = rows[kSigmoidLambda];
   model->highest_lambda = rows[(n - 1) * kSigmoidRow + kSigmoidLambda];

@@ -16,6 +16,7 @@ struct SigmoidModel {
   /// Least and greatest lambda of the bands; beyond them a spectrum keeps its value at the end.
   float lowest_lambda = 0;
   float highest_lambda = 0;
+  bool has_cube = false;  ///< some sigmoid has every colour with components from 0 to 1
 };
 
 /// Lambda of the polynomials. Units: nm.

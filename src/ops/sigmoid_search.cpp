@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "kernels/sigmoid_constants.hpp"
 #include "src/ops/sigmoid_model.hpp"
 
 namespace spectile {
@@ -69,11 +71,11 @@ std::array<Matrix3, 3> SigmoidSums::second(const Triple& c) const {
   return out;
 }
 
-bool SigmoidSums::solve(const Triple& rgb, Triple& c) const {
+bool SigmoidSums::solve(const Triple& rgb, Triple& c, int trials) const {
   Matrix3 j;
   Triple left = difference(rgb, at(c, j));
   double damping = 1e-6;
-  for (int step = 0; step < 200 && largest(left) > kTolerance; ++step) {
+  for (int trial = 0; trial < trials && largest(left) > kTolerance; ++trial) {
     Matrix3 normal{};
     Triple gradient{};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -85,11 +87,11 @@ bool SigmoidSums::solve(const Triple& rgb, Triple& c) const {
     Matrix3 damped = normal;
     for (std::size_t a = 0; a < 3; ++a) damped[4 * a] += damping * normal[4 * a];
     const Triple move = times(inverse(damped), gradient);
-    const Triple trial = {c[0] + move[0], c[1] + move[1], c[2] + move[2]};
+    const Triple there = {c[0] + move[0], c[1] + move[1], c[2] + move[2]};
     Matrix3 j_there;
-    const Triple left_there = difference(rgb, at(trial, j_there));
+    const Triple left_there = difference(rgb, at(there, j_there));
     if (squared(left_there) < squared(left)) {
-      c = trial;
+      c = there;
       left = left_there;
       j = j_there;
       damping = std::max(0.1 * damping, 1e-18);
@@ -99,6 +101,32 @@ bool SigmoidSums::solve(const Triple& rgb, Triple& c) const {
     }
   }
   return largest(left) < 1e-9;
+}
+
+double SigmoidSums::reach(const Triple& rgb, double grey, Triple& c) const {
+  constexpr double kShortest = 0x1p-10;
+  constexpr int kTrials = 20;
+  c = {0, 0, (grey - 0.5) / std::sqrt(grey * (1 - grey))};
+  const double steep = static_cast<double>(kernels::kSigmoidSteep) / std::sqrt(std::min(grey, 1 - grey));
+  const auto goal = [&](double part) {
+    Triple out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = grey + part * (rgb[k] - grey);
+    return out;
+  };
+  double part = 0;
+  for (double ahead = 0.25; part < 1 && ahead >= kShortest;) {
+    const double next = std::min(1.0, part + ahead);
+    Triple trial = c;
+    const bool met = solve(goal(next), trial, kTrials);
+    if (met && std::abs(trial[0]) + std::abs(trial[1]) + std::abs(trial[2]) <= steep) {
+      c = trial;
+      part = next;
+      ahead *= 2;
+    } else {
+      ahead *= 0.25;
+    }
+  }
+  return part;
 }
 
 bool SigmoidSums::solve_from_grey(const Triple& rgb, Triple& c) const {

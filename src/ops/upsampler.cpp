@@ -67,6 +67,19 @@ Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands
   return out;
 }
 
+/// Luminance of red, green and blue, for the light's white as the whole visible range shows it.
+Result<std::array<float, 3>> luminance_weights(const UpsamplerOptions& options,
+                                               const MeasuredSpectrum& light) {
+  const auto visible = Bands::uniform(360, 830, 1);
+  if (!visible) return visible.error();
+  const auto space =
+      working_space(*visible, Quantity::kReflectance, options.primaries, light, options.observer);
+  if (!space) return space.error();
+  std::array<float, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(space->rgb_to_xyz[3 + k]);
+  return out;
+}
+
 /// Whether the tables in src/data are those asked for.
 bool is_precomputed(Quantity quantity, const Bands& bands, const UpsamplerOptions& options) {
   return quantity != Quantity::kIlluminant && bands == Bands() && options.primaries == kRec709 &&
@@ -159,6 +172,9 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   out.bands_ = bands;
   out.options_ = options;
   out.rgb_to_xyz_ = space ? space->rgb_to_xyz : srgb_to_xyz_matrix();
+  const auto luminance = luminance_weights(options, light);
+  if (!luminance) return luminance.error();
+  out.luminance_ = *luminance;
   out.lowest_ = options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
   if (method == Method::kSigmoid) {
     auto model = sigmoid_model(bands, *space);

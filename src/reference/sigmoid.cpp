@@ -6,87 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/sigmoid_constants.hpp"
+#include "src/reference/sigmoid_sums.hpp"
 
 namespace spectile::reference {
 namespace {
 
 using namespace kernels;
 
-/// a * b + c, rounded once.
-float fused(float a, float b, float c) {
-  return std::fma(a, b, c);
-}
-
-/// Sums over the bands and their derivatives by the coefficients: [rgb][c0, c1, c2].
-struct Sums {
-  float f[3] = {0, 0, 0};
-  float j[3][3] = {};
-};
-
-float residual(const Sums& sums, const float target[3], float r[3]) {
-  for (std::size_t k = 0; k < 3; ++k) r[k] = target[k] - sums.f[k];
-  // As the vector maximum: the second operand where the first is not greater.
-  const float first = std::abs(r[0]) > std::abs(r[1]) ? std::abs(r[0]) : std::abs(r[1]);
-  return first > std::abs(r[2]) ? first : std::abs(r[2]);
-}
-
-void add_slopes(Sums& sums, const SigmoidPoint& p, const float* row) {
-  const float slope = (p.root * p.root) * p.root;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) sums.j[k][i] = fused(slope, row[3 * k + i], sums.j[k][i]);
-  }
-}
-
-/// Sums over all bands, run by run, and their derivatives.
-Sums sums_of(const float c[3], const SigmoidTable& table) {
-  Sums sums;
-  for (std::size_t first = 0; first < table.bands; first += kSumRun) {
-    float run[3] = {0, 0, 0};
-    for (std::size_t b = first; b < table.bands && b < first + kSumRun; ++b) {
-      const float* row = table.rows + b * kSigmoidRow;
-      const SigmoidPoint p = sigmoid_point(c, row[kSigmoidLambda]);
-      for (std::size_t k = 0; k < 3; ++k) run[k] = fused(table.weights[4 * b + k], p.sample, run[k]);
-      add_slopes(sums, p, row);
-    }
-    for (std::size_t k = 0; k < 3; ++k) sums.f[k] = sums.f[k] + run[k];
-  }
-  return sums;
-}
-
-void cross(const float u[3], const float v[3], float out[3]) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t m = (i + 1) % 3;
-    const std::size_t n = (i + 2) % 3;
-    out[i] = fused(-u[n], v[m], u[m] * v[n]);
-  }
-}
-
-/// Newton's step, by Cramer's rule; zero where it is not finite.
-void newton_step(const Sums& sums, const float r[3], float step[3]) {
-  const float* const a = sums.j[0];
-  const float* const b = sums.j[1];
-  const float* const c = sums.j[2];
-  float bc[3];
-  float ca[3];
-  float ab[3];
-  cross(b, c, bc);
-  cross(c, a, ca);
-  cross(a, b, ab);
-  const float determinant = fused(a[2], bc[2], fused(a[1], bc[1], a[0] * bc[0]));
-  const float inverse = 1.0F / determinant;
-  bool finite = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    step[i] = fused(r[2], ab[i], fused(r[1], ca[i], r[0] * bc[i])) * inverse;
-    finite = finite && std::abs(step[i]) < kSigmoidFar;
-  }
-  for (std::size_t i = 0; i < 3 && !finite; ++i) step[i] = 0;
-}
-
 /// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
-float length_of(const float c[3]) {
-  return (std::abs(c[0]) + std::abs(c[1])) + std::abs(c[2]);
-}
 bool is_last(float size, const float step[3], float close) {
   // A step of no length stands for one that was not finite.
   const float length = length_of(step);
@@ -131,9 +58,8 @@ struct Search {
   int steps;    // evaluations at most
 };
 
-/// Steps from coefficients for the brightened colour to those of the target; 0 where it got there, else the
-/// residual that is left.
-float refine(float c[3], const Search& search, const SigmoidTable& table) {
+/// Steps from coefficients for the brightened colour to those of the target.
+void refine(float c[3], const Search& search, const SigmoidTable& table) {
   float scale = search.scale;
   float goal[3];
   for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
@@ -153,7 +79,7 @@ float refine(float c[3], const Search& search, const SigmoidTable& table) {
     }
     if (arrived && scale == 1.0F) {
       std::copy(trial, trial + 3, c);
-      return 0;
+      return;
     }
     if (arrived) {
       scale = scale * 0.25F;
@@ -178,7 +104,13 @@ float refine(float c[3], const Search& search, const SigmoidTable& table) {
   }
   const float root = std::sqrt(scale);
   for (std::size_t k = 0; k < 3; ++k) c[k] = c[k] * root;
-  return size;
+}
+
+/// Whether the coefficients have the target's colour, of which z is the largest component.
+bool is_met(const float c[3], const float target[3], float z, const SigmoidTable& table) {
+  float r[3];
+  const float size = residual(sums_of(c, table), target, r);
+  return size <= std::max(kSigmoidRounding, std::min(kSigmoidUnsolved, z * kSigmoidMet));
 }
 
 }  // namespace
@@ -257,7 +189,8 @@ bool sigmoid_coefficients(float c[3], const float rgb[3], const SigmoidTable& ta
         search.steep = kSigmoidSteep / std::sqrt(black ? 0.5F : z);
         search.steps = kSigmoidStepsOutside;
       }
-      solved = refine(c, search, table) <= kSigmoidUnsolved;
+      refine(c, search, table);
+      solved = is_met(c, target, black ? 0.5F : z, table);
     }
   }
   for (std::size_t k = 0; k < 3; ++k) c[k] = bright ? -c[k] : c[k];

@@ -39,6 +39,16 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const kernels::
   }
 }
 
+void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3],
+                   const kernels::SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float color[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};
+    float lane[3];
+    reached[i] = sigmoid_reach(lane, color, table, luminance);
+    for (std::size_t k = 0; k < 3; ++k) c[k][i] = lane[k];
+  }
+}
+
 void sigmoid_blocks(float* dst, const float* const c[3], const float* scale, const float* rows, bool white,
                     std::size_t bands, std::size_t blocks, bool /*stream*/) noexcept {
   for (std::size_t i = 0; i < blocks * kLanes; ++i) {
@@ -89,6 +99,7 @@ void limit_gamut(float* const rgb[3], const float weights[3], float lowest, floa
     float v[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};
     bool outside = false;
     for (const float value : v) outside = outside || value < lowest || highest < value;
+    for (const float value : v) outside = outside && value - value == 0.0F;
     if (!outside) continue;
     moved[i / kLanes] |= std::uint64_t{1} << (i % kLanes);
     const float y = limited((weights[0] * v[0] + weights[1] * v[1]) + weights[2] * v[2]);

@@ -162,6 +162,7 @@ const kernels::KernelTable table = {
     .smits_rows_half = smits_rows_half,
     .smits_fold = smits_fold,
     .sigmoid_solve = sigmoid_solve,
+    .sigmoid_reach = sigmoid_reach,
     .sigmoid_blocks = sigmoid_blocks,
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,

@@ -256,5 +256,39 @@ TEST(ExactBasis, ThereIsOneExactlyWhereTheSolidOfColoursHoldsTheCorners) {
   }
 }
 
+TEST(ExactBasis, ThereAreBasesWhereTheStepsOfTheSolverBreakDown) {
+  // A decomposition into primaries shows that the corners are colours of reflectances.
+  for (const char* light : {"FL10", "FL11"}) {
+    const Bands bands = *Bands::parse("380:780:5");
+    const auto space =
+        *working_space(bands, Quantity::kReflectance, kRec709, *illuminant(light), Observer::kCie1931);
+    ASSERT_TRUE(primary_decomposition(bands, space)) << light;
+    EXPECT_TRUE(smoothest_basis(bands, space)) << light;
+  }
+  const Bands wide = *Bands::parse("360:830:5");
+  const auto d65 =
+      *working_space(wide, Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1964);
+  EXPECT_TRUE(smoothest_basis(wide, d65));
+  // Found by projected gradients, with a residual below 1e-12.
+  const Bands bands = *Bands::parse("380:780:5");
+  const auto ten =
+      *working_space(bands, Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1964);
+  EXPECT_TRUE(primary_decomposition(bands, ten));
+}
+
+TEST(ExactBasis, PrimaryDecompositionsAreNotBelowZero) {
+  for (const char* light : {"A", "FL7"}) {
+    UpsamplerOptions options;
+    options.light = *illuminant(light);
+    for (const char* bands : {"400:700:5", "380:780:5"}) {
+      const auto upsampler =
+          *Upsampler::create(Method::kMallett, Quantity::kReflectance, *Bands::parse(bands), options);
+      for (const auto& row : upsampler.basis()) {
+        for (const double v : row) EXPECT_GE(v, 0) << light << " " << bands;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -38,7 +38,9 @@ bool same_color(const ColorLanes& a, const ColorLanes& b, std::size_t i) {
 }
 
 double luminance_of(const Upsampler& upsampler, const ColorLanes& rgb, std::size_t i) {
-  return times(upsampler.rgb_to_xyz(), {rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)})[1];
+  double y = 0;
+  for (std::size_t k = 0; k < 3; ++k) y += static_cast<double>(upsampler.luminance()[k]) * rgb.at(i, k);
+  return y;
 }
 
 /// How far along from the grey of luminance y to the colour it was a colour has come; that it is on that line
@@ -248,18 +250,32 @@ TEST(Gamut, LimitedColoursOfUnboundedSigmoidsScaleWithTheLight) {
     ASSERT_EQ(many.at(i / 3, i % 3), 0x1p20F * one.at(i / 3, i % 3));
 }
 
-TEST(Gamut, WhatIsNotFiniteStaysWithTheSigmoid) {
-  const auto upsampler = upsampler_of(Method::kSigmoid);
-  const auto before = lanes_of({{kNan, 0.5F, 0.5F},
-                                {-1, kNan, 0.5F},
-                                {2, 2, kNan},
-                                {kInf, 0, 0},
-                                {-kInf, -1, 0.5F},
-                                {-1, kInf, 2},
-                                {kNan, kNan, kNan}});
+TEST(Gamut, WhatIsNotFiniteStays) {
+  const Rgb colours[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},    {kInf, 0, 0},
+                         {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1},  {kNan, -1, 0.5F},
+                         {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},   {kNan, kNan, kNan}};
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
+    for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
+      const auto upsampler = upsampler_of(method, quantity);
+      const auto before = lanes_of(colours);
+      auto rgb = copy_of(before);
+      EXPECT_EQ(limit(upsampler, rgb).outside, 0U);
+      for (std::size_t i = 0; i < rgb.lanes(); ++i) {
+        EXPECT_TRUE(same_color(rgb, before, i)) << to_string(method) << " lane " << i;
+      }
+    }
+  }
+}
+
+TEST(Gamut, WhereTheColoursMoveDoesNotDependOnTheBands) {
+  const auto before = random_colours(257, 8, -0.4F, 1.0F);
   auto rgb = copy_of(before);
-  EXPECT_EQ(limit(upsampler, rgb).outside, 0U);
-  for (std::size_t i = 0; i < rgb.lanes(); ++i) EXPECT_TRUE(same_color(rgb, before, i)) << i;
+  limit(upsampler_of(Method::kSmitsExact), rgb);
+  for (const char* bands : {"380:780:5", "360:830:1", "400:700:10"}) {
+    auto other = copy_of(before);
+    limit(*Upsampler::create(Method::kMallett, Quantity::kReflectance, *Bands::parse(bands)), other);
+    for (std::size_t i = 0; i < rgb.lanes(); ++i) ASSERT_TRUE(same_color(rgb, other, i)) << bands << i;
+  }
 }
 
 TEST(Gamut, SamplesThatAreNotAlignedAreAnError) {

@@ -211,6 +211,8 @@ TEST(Sigmoid, HalfInverseRootIsWithinItsBound) {
     look(bits);  // 1 to 4: all there is to it
   for (std::uint32_t bits = 0x40800000U; bits < 0x7D800000U; bits += 997) look(bits);  // to 2^124
   EXPECT_LE(worst, 2.5 * 0x1p-24);
+  for (std::uint32_t bits = 0x7D800000U; bits <= 0x7E800000U; bits += 997) look(bits);  // to 2^126
+  EXPECT_LE(worst, 3.1 * 0x1p-24);
 }
 
 TEST(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {

@@ -1,0 +1,122 @@
+// The way from a colour's grey to the colour: how much of it sigmoids have, and the coefficients there.
+#pragma once
+
+#include "kernels/sigmoid_search.inl"
+
+namespace spectile::kernels {
+namespace {
+
+/// A line of colours from a grey, and how near its places must be met.
+struct Way {
+  F32 grey;
+  F32 way[3];
+  F32 near, met, steep;
+  F32 shortest, damped, tries;  // see ReachEffort
+};
+
+inline void goal_at(const Way& line, F32 part, F32 goal[3]) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(part, line.way[k], line.grey);
+}
+
+/// The part of the line that is reached from the grey's coefficients c; c becomes those there. A lane that is
+/// done stays as it is, so that no lane depends on its neighbours.
+inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Mask active) noexcept {
+  const F32 zero(0.0F);
+  const F32 one(1.0F);
+  const F32 infinity(__builtin_inff());
+  const F32 quarter(0.25F);
+  Coefficients base = c;
+  Coefficients step = {{zero, zero, zero}};
+  F32 length = one;
+  F32 part = zero;
+  F32 ahead(kReachFirst);
+  F32 next(kReachFirst);
+  F32 before = infinity;  // residual of the base, for the same place
+  F32 best = infinity;    // residual at the line's end
+  F32 tries = zero;
+  for (int i = 0; i < kReachSteps && lane_bits(active) != 0; ++i) {
+    Coefficients trial;
+    for (std::size_t k = 0; k < 3; ++k) trial.c[k] = base.c[k] + length * step.c[k];
+    const SigmoidSums sums = sums_of(trial, table);
+    F32 goal[3];
+    goal_at(line, next, goal);
+    Residual left = residual(sums, goal);
+    const Mask usable = length_of(trial) <= line.steep;
+    const Mask end = next == one;
+    const Mask there = active & usable & (left.size <= xsimd::select(end, line.met, line.near));
+    const Mask keep = there & (~end | (left.size < best));
+    for (std::size_t k = 0; k < 3; ++k) c.c[k] = xsimd::select(keep, trial.c[k], c.c[k]);
+    part = xsimd::select(keep, next, part);
+    best = xsimd::select(keep, xsimd::select(end, left.size, infinity), best);
+    const Mask gains = usable & (left.size < F32(kReachGain) * before);
+    active = active & ~((part == one) & ((left.size <= F32(kSigmoidFloor)) | ~gains));
+    const Mask onward = there & ~end;
+    const Mask better = usable & (left.size < before);
+    tries = tries + one;
+    const Mask stuck = (~better & (length * quarter < line.damped)) | ~(tries < line.tries);
+    const Mask back = ~onward & stuck;
+    const Mask moves = ~back & (onward | better);
+    ahead = xsimd::select(onward, ahead + ahead, xsimd::select(back, ahead * quarter, ahead));
+    active = active & ~(back & (ahead < line.shortest));
+    next = xsimd::select(onward | back, xsimd::min(one, part + ahead), next);
+    tries = xsimd::select(onward | back, zero, tries);
+    goal_at(line, next, goal);
+    const Residual further = residual(sums, goal);
+    for (std::size_t k = 0; k < 3; ++k) left.r[k] = xsimd::select(onward, further.r[k], left.r[k]);
+    left.size = xsimd::select(onward, further.size, left.size);
+    const Coefficients newton = newton_step(sums, left);
+    for (std::size_t k = 0; k < 3; ++k) {
+      base.c[k] = xsimd::select(back, c.c[k], xsimd::select(moves, trial.c[k], base.c[k]));
+      step.c[k] = xsimd::select(back, zero, xsimd::select(moves, newton.c[k], step.c[k]));
+    }
+    before = xsimd::select(back, infinity, xsimd::select(moves, left.size, before));
+    const F32 longer = xsimd::select(onward, one, xsimd::min(one, length + length));
+    length = xsimd::select(back, one, xsimd::select(moves, longer, length * quarter));
+  }
+  return part;
+}
+
+void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3], const SigmoidTable& table,
+                   const float luminance[3], std::size_t n) noexcept {
+  const F32 zero(0.0F);
+  const F32 half(0.5F);
+  const F32 one(1.0F);
+  for (std::size_t at = 0; at < n; at += kWidth) {
+    F32 v[3];
+    for (std::size_t k = 0; k < 3; ++k) v[k] = load(rgb[k] + at);
+    const Mask finite = (v[0] - v[0] == zero) & (v[1] - v[1] == zero) & (v[2] - v[2] == zero);
+    const F32 y = (F32(luminance[0]) * v[0] + F32(luminance[1]) * v[1]) + F32(luminance[2]) * v[2];
+    // The reflectance of 1 - colour is 1 - reflectance.
+    const Mask bright = y > half;
+    const F32 level = xsimd::select(bright, one - y, y);
+    const Mask lit = finite & (level >= F32(kReachBlack));
+    Way line;
+    line.grey = xsimd::select(lit, level, half);
+    for (std::size_t k = 0; k < 3; ++k) {
+      line.way[k] = xsimd::select(bright, one - v[k], v[k]) - line.grey;
+    }
+    line.near = xsimd::max(F32(kSigmoidRounding), line.grey * F32(kReachNear));
+    line.met =
+        xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), line.grey * F32(kSigmoidMet)));
+    Mask inside = finite;
+    for (const F32& value : v) inside = inside & (value >= zero) & (value <= one);
+    const auto effort = [inside](float patient, float brief) {
+      return xsimd::select(inside, F32(patient), F32(brief));
+    };
+    line.shortest = effort(kReachInside.shortest, kReachOutside.shortest);
+    line.damped = effort(kReachInside.damped, kReachOutside.damped);
+    line.tries = effort(kReachInside.tries, kReachOutside.tries);
+    line.steep = F32(kSigmoidSteep) / xsimd::sqrt(line.grey);
+    Coefficients a = {{zero, zero, (line.grey - half) / xsimd::sqrt(line.grey * (one - line.grey))}};
+    const F32 part = reach(a, line, table, lit);
+    a.c[2] = xsimd::select(lit, a.c[2], F32(-kSigmoidFar));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const F32 turned = xsimd::select(bright, a.c[k] * F32(-1.0F), a.c[k]);
+      store(c[k] + at, xsimd::select(finite, turned, F32(__builtin_nanf(""))));
+    }
+    store(reached + at, xsimd::select(finite, part, one));
+  }
+}
+
+}  // namespace
+}  // namespace spectile::kernels
