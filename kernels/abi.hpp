@@ -48,6 +48,10 @@ inline constexpr std::size_t kSigmoidNode = 32;
 /// A coefficient at which the sigmoid is exactly 1, and its negative 0.
 inline constexpr float kSigmoidFar = 0x1p40F;
 
+/// Coefficients of colours outside the cube may sum to this, over the root of the largest component of the
+/// colour that the search starts from: beyond it a spectrum is a step between two bands, and no colour of a
+/// reflectance is much further out.
+inline constexpr float kSigmoidSteep = 256.0F;
 /// What solving for sigmoid coefficients needs. Lambda is (wavelength - 550 nm) / 150 nm.
 struct SigmoidTable {
   std::size_t bands = 0;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "kernels/abi.hpp"
+
 namespace spectile::kernels {
 
 /// Half the inverse square root: a guess from this less half the bits, a step of third order and one of
@@ -38,10 +40,6 @@ inline constexpr float kSigmoidNear = 0.05F;
 inline constexpr float kSigmoidUnsolved = 1e-5F;
 inline constexpr float kSigmoidMet = 0.01F;
 inline constexpr float kSigmoidRounding = 0x1p-22F;
-/// Coefficients of colours outside the cube may sum to this, over the root of the largest component of the
-/// colour that the search starts from: beyond it a spectrum is a step between two bands, and no colour of a
-/// reflectance is much further out.
-inline constexpr float kSigmoidSteep = 256.0F;
 /// Evaluations at most, outside the cube and inside it, and the shortest part of a step that is tried.
 inline constexpr int kSigmoidStepsOutside = 12;
 inline constexpr int kSigmoidSteps = 80;

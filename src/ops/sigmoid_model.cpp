@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/sigmoid_constants.hpp"
 #include "src/data/tables.hpp"
 #include "src/ops/sigmoid_search.hpp"
 

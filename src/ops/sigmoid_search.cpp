@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/sigmoid_constants.hpp"
 #include "src/ops/sigmoid_model.hpp"
 
 namespace spectile {
