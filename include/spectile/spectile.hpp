@@ -13,4 +13,5 @@
 #include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
 #include <spectile/spectral_texture.hpp>
+#include <spectile/spectrum.hpp>
 #include <spectile/upsample.hpp>

@@ -185,7 +185,7 @@ class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
   static Result<UpsampledSpectrum> from_rgb(const Upsampler& upsampler, const std::array<double, 3>& rgb);
 
   double operator()(double lambda_nm) const noexcept;
-  /// Over the range of its bands.
+  /// Over the range of its bands; a sigmoid times a light at every 0.1 nm.
   double max_value() const noexcept;
   /// Exact where it is linear; a sigmoid's by Gauss-Legendre quadrature to a relative 1e-9.
   double integral(double first_nm, double last_nm) const noexcept;

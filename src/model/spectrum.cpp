@@ -1,0 +1,95 @@
+// Spectrum: any distribution behind one value type, and products of two.
+#include <algorithm>
+#include <cmath>
+#include <spectile/spectrum.hpp>
+
+#include "src/model/quadrature.hpp"
+
+namespace spectile {
+namespace {
+
+/// Where a distribution is not smooth, or where its mass is: places to start a quadrature from.
+void add_breaks(const ConstantSpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
+void add_breaks(const BlackbodySpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
+void add_breaks(const PiecewiseLinearSpectrum& s, std::vector<double>& breaks) {
+  breaks.insert(breaks.end(), s.wavelengths_nm().begin(), s.wavelengths_nm().end());
+}
+void add_breaks(const DenselySampledSpectrum& s, std::vector<double>& breaks) {
+  for (int nm = s.first_nm(); nm <= s.last_nm(); ++nm) breaks.push_back(nm);
+}
+void add_breaks(const GaussianSumSpectrum& s, std::vector<double>& breaks) {
+  for (const auto& lobe : s.lobes()) {
+    for (const double sigmas : {1.0, 2.0, 4.0, 8.0}) {
+      breaks.push_back(lobe.mean_nm - sigmas * lobe.sigma_left_nm);
+      breaks.push_back(lobe.mean_nm + sigmas * lobe.sigma_right_nm);
+    }
+    breaks.push_back(lobe.mean_nm);
+  }
+}
+void add_breaks(const UpsampledSpectrum& s, std::vector<double>& breaks) {
+  if (const MeasuredSpectrum* table = s.table()) {
+    breaks.insert(breaks.end(), table->wavelengths_nm().begin(), table->wavelengths_nm().end());
+  }
+  breaks.push_back(s.first_nm());
+  breaks.push_back(s.last_nm());
+}
+
+/// Whether a distribution is linear between its breaks.
+bool is_linear(const Spectrum::Kind& kind) {
+  if (const auto* upsampled = std::get_if<UpsampledSpectrum>(&kind)) return !upsampled->is_sigmoid();
+  return !std::holds_alternative<BlackbodySpectrum>(kind) &&
+         !std::holds_alternative<GaussianSumSpectrum>(kind);
+}
+
+/// Simpson's rule from points inside [a, b], so that steps at the ends do not count: exact for parabolas.
+template <class Function>
+double of_parabola(const Function& f, double a, double b) {
+  // The open rule of two points is exact up to the third power.
+  const double offset = 0.5 * (b - a) / std::sqrt(3.0);
+  const double middle = 0.5 * (a + b);
+  return 0.5 * (b - a) * (f(middle - offset) + f(middle + offset));
+}
+
+}  // namespace
+
+double Spectrum::operator()(double lambda_nm) const noexcept {
+  return std::visit([&](const auto& s) { return s(lambda_nm); }, kind_);
+}
+
+double Spectrum::max_value() const noexcept {
+  return std::visit([](const auto& s) { return s.max_value(); }, kind_);
+}
+
+double Spectrum::integral(double first_nm, double last_nm) const noexcept {
+  return std::visit([&](const auto& s) { return s.integral(first_nm, last_nm); }, kind_);
+}
+
+std::string Spectrum::to_text() const {
+  return std::visit([](const auto& s) { return s.to_text(); }, kind_);
+}
+
+double inner_product(const Spectrum& a, const Spectrum& b, double first_nm, double last_nm) {
+  if (!(last_nm > first_nm)) return 0;
+  std::vector<double> breaks = {first_nm};
+  for (const Spectrum* s : {&a, &b}) {
+    std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, s->kind());
+  }
+  breaks.push_back(last_nm);
+  std::sort(breaks.begin(), breaks.end());
+  const bool exact = is_linear(a.kind()) && is_linear(b.kind());
+  return std::visit(
+      [&](const auto& f, const auto& g) {
+        const auto product = [&](double nm) { return f(nm) * g(nm); };
+        double sum = 0;
+        for (std::size_t i = 1; i < breaks.size(); ++i) {
+          const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
+          const double to = std::clamp(breaks[i], first_nm, last_nm);
+          if (!(to > from)) continue;
+          sum += exact ? of_parabola(product, from, to) : quadrature::adaptive(product, from, to, 1e-10);
+        }
+        return sum;
+      },
+      a.kind(), b.kind());
+}
+
+}  // namespace spectile
