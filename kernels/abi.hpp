@@ -61,6 +61,41 @@ struct SigmoidTable {
   std::int32_t steps = 0;
 };
 
+/// A function tabulated at even wavelengths: pairs of a value and the difference to the next one.
+struct EvenTable {
+  const float* pairs = nullptr;  ///< [intervals][2]
+  float first_nm = 0;
+  float per_nm = 1;            ///< intervals a nanometre
+  std::int32_t intervals = 0;  ///< at least 1
+};
+
+/// A function linear between irregular knots. The knot that is last at or below a wavelength is searched for
+/// from the one that `start` names for the wavelength's bucket, in steps halved from 2^(halvings - 1) to 1.
+struct KnotTable {
+  const float* knots = nullptr;  ///< [count + 2^halvings], ascending; infinities from count on
+  const float* pairs = nullptr;  ///< [count][2]: the value at a knot, the slope after it (0 after the last)
+  std::int32_t count = 0;
+  const std::int32_t* start = nullptr;  ///< [buckets]
+  float buckets_per_nm = 0;
+  std::int32_t buckets = 0;
+  std::int32_t halvings = 0;
+  bool held = false;  ///< beyond the ends: their values rather than 0
+};
+
+/// One lobe of a sum of Gaussians: its amplitude, its mean, and 1 / sigma on both sides. Units: nm.
+struct GaussianLobe {
+  double amplitude, mean_nm, per_sigma_left, per_sigma_right;
+};
+
+/// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's sensitivity
+/// tanh(steepness * (lambda - centre)).
+struct WavelengthDensity {
+  float first_nm, range_nm;
+  double centre_nm, per_steepness_nm;  ///< visible: 1 / steepness
+  double from, by;                     ///< visible: tanh at u = 0, and what u = 1 takes from it
+  double peak;                         ///< visible: density at the centre
+};
+
 /// One instruction set's kernels.
 struct KernelTable {
   const char* name;
@@ -164,6 +199,38 @@ struct KernelTable {
   /// dst_k = sum over bands of weights[band][k] * sample; weights [bands][4]
   void (*sigmoid_project)(float* const dst[3], const float* const c[3], const float* scale, const float* rows,
                           bool white, const float* weights, std::size_t bands, std::size_t n) noexcept;
+
+  // Spectra at single wavelengths. A wavelength that is NaN gives NaN; n a multiple of kLanes.
+  /// t = (lambda - first) * per_nm, i = min(int(t), intervals - 1): value[i] + ((t - i) * difference[i]); 0
+  /// where t is outside [0, intervals]
+  void (*look_up_even)(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept;
+  /// value[i] + ((lambda - knot[i]) * slope[i]) for the last knot i at or below lambda; outside the knots 0, or
+  /// where the table is held, the value at the nearer end
+  void (*look_up_knots)(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept;
+  /// (factor / lambda^5) / (2^(exponent / lambda) - 1), in double, rounded once; 0 where lambda is not above 0
+  void (*planck)(float* dst, const float* lambda_nm, double factor, double exponent_nm,
+                 std::size_t n) noexcept;
+  /// sum of amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, lobe by lobe, in double, rounded once
+  void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
+                    std::size_t n) noexcept;
+  /// the sigmoid of one set of coefficients at lambda held in [lowest, highest] (see above), times scale
+  void (*sigmoid_at)(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
+                     float scale, std::size_t n) noexcept;
+  /// u_k = u + k / count, less 1 where it reaches 1; wavelength first + (u_k * range), density 1 / range. u
+  /// limited to [0, 1 - 2^-24].
+  void (*even_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
+                           const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  /// the same u_k; y = from - (u_k * by), wavelength centre - atanh(y) * per_steepness, density peak * (1 - y
+  /// * y), in double, rounded once. Source: Radziszewski, Boryczko, Alda, An Improved Technique for Full
+  /// Spectral Rendering, Journal of WSCG 17, 2009.
+  void (*visible_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
+                              const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  /// dst_c = factor * sum over k of curve_c(lambda_k) * (values_k / density_k), curves looked up as in
+  /// look_up_even; a density of 0 adds nothing, whatever the value. curves: three tables of the same
+  /// wavelengths, [intervals][2] each.
+  void (*project_wavelengths)(float* const dst[3], const float* const* values, const float* const* lambda_nm,
+                              const float* const* density, const EvenTable curves[3], float factor,
+                              std::size_t count, std::size_t n) noexcept;
 
   // Gamut.
   /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance

@@ -8,6 +8,7 @@
 #include "kernels/sigmoid_reach.inl"
 #include "kernels/sigmoid_search.inl"
 #include "kernels/upsample.inl"
+#include "kernels/wavelengths.inl"
 
 #if defined(SPECTILE_KERNEL_AVX512)
 #define SPECTILE_KERNEL_NAME avx512
@@ -61,6 +62,14 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,
     .sigmoid_project = sigmoid_project,
+    .look_up_even = look_up_even,
+    .look_up_knots = look_up_knots,
+    .planck = planck,
+    .gaussians = gaussians,
+    .sigmoid_at = sigmoid_at,
+    .even_wavelengths = even_wavelengths,
+    .visible_wavelengths = visible_wavelengths,
+    .project_wavelengths = project_wavelengths,
     .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,

@@ -15,3 +15,4 @@
 #include <spectile/spectral_texture.hpp>
 #include <spectile/spectrum.hpp>
 #include <spectile/upsample.hpp>
+#include <spectile/wavelengths.hpp>

@@ -9,6 +9,7 @@
 #include "src/reference/sigmoid.hpp"
 #include "src/reference/smits.hpp"
 #include "src/reference/sums.hpp"
+#include "src/reference/wavelengths.hpp"
 
 namespace spectile::reference {
 namespace {
@@ -167,6 +168,14 @@ const kernels::KernelTable table = {
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,
     .sigmoid_project = sigmoid_project,
+    .look_up_even = look_up_even,
+    .look_up_knots = look_up_knots,
+    .planck = planck,
+    .gaussians = gaussians,
+    .sigmoid_at = sigmoid_at,
+    .even_wavelengths = even_wavelengths,
+    .visible_wavelengths = visible_wavelengths,
+    .project_wavelengths = project_wavelengths,
     .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,

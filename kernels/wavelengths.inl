@@ -1,0 +1,190 @@
+// Spectra at single wavelengths, wavelengths drawn at random, and what they add up to.
+#pragma once
+
+#include "kernels/exponential.inl"
+#include "kernels/sigmoid.inl"
+#include "kernels/simd.hpp"
+
+namespace spectile::kernels {
+namespace {
+
+/// Where a wavelength is in a table at even wavelengths.
+struct EvenPlace {
+  I32 interval;
+  F32 part;
+  Mask inside;
+};
+
+inline EvenPlace place_in(const EvenTable& table, F32 lambda) noexcept {
+  const F32 t = (lambda - F32(table.first_nm)) * F32(table.per_nm);
+  EvenPlace out;
+  out.inside = (t >= F32(0.0F)) & (t <= F32(static_cast<float>(table.intervals)));
+  const F32 safe = xsimd::select(out.inside, t, F32(0.0F));
+  out.interval = xsimd::min(xsimd::to_int(safe), I32(table.intervals - 1));
+  out.part = safe - xsimd::to_float(out.interval);
+  return out;
+}
+
+inline F32 value_at(const float* pairs, const EvenPlace& place) noexcept {
+  const Pair pair = gather_pair(pairs, place.interval);
+  return xsimd::select(place.inside, pair.first + place.part * pair.second, F32(0.0F));
+}
+
+inline F32 or_nan(F32 lambda, F32 value) noexcept {
+  return xsimd::select(is_nan(lambda), lambda, value);
+}
+
+void look_up_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    store(dst + i, or_nan(lambda, value_at(table.pairs, place_in(table, lambda))));
+  }
+}
+
+void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
+  const F32 first(table.knots[0]);
+  const F32 last(table.knots[table.count - 1]);
+  const F32 most(static_cast<float>(table.buckets - 1));
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    const Mask inside = (lambda >= first) & (lambda <= last);
+    const F32 held = xsimd::select(lambda < first, first, xsimd::select(lambda > last, last, lambda));
+    const F32 safe = xsimd::select(is_nan(lambda), first, held);
+    const F32 bucket = limit_above(most, (safe - first) * F32(table.buckets_per_nm));
+    I32 knot = gather(table.start, xsimd::to_int(bucket));
+    for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
+      const I32 next = knot + I32(step);
+      const Mask below = gather(table.knots, next) <= safe;
+      // A selection moves bits, whatever they stand for.
+      knot = bits_as<std::int32_t>(xsimd::select(below, bits_as<float>(next), bits_as<float>(knot)));
+    }
+    const Pair pair = gather_pair(table.pairs, knot);
+    const F32 value = pair.first + (safe - gather(table.knots, knot)) * pair.second;
+    const F32 out = table.held ? value : xsimd::select(inside, value, F32(0.0F));
+    store(dst + i, or_nan(lambda, out));
+  }
+}
+
+/// f of the lanes in double, rounded once.
+template <class Function>
+inline F32 in_double(F32 v, Function f) noexcept {
+  return narrow(f(widen_low(v)), f(widen_high(v)));
+}
+
+void planck(float* dst, const float* lambda_nm, double factor, double exponent_nm, std::size_t n) noexcept {
+  const F32 zero(0.0F);
+  const F32 one(1.0F);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    const Mask positive = lambda > zero;
+    const F32 value = in_double(xsimd::select(positive, lambda, one), [&](F64 l) {
+      const F64 power = ((l * l) * (l * l)) * l;
+      const F64 e = exp2_double(hold(F64(exponent_nm) / l, kExponentLimit));
+      return (F64(factor) / power) / (e - F64(1.0));
+    });
+    // An infinite wavelength would be 0 / 0.
+    const Mask finite = lambda - lambda == zero;
+    store(dst + i, or_nan(lambda, xsimd::select(positive & finite, value, zero)));
+  }
+}
+
+void gaussians(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
+               std::size_t n) noexcept {
+  const F64 to_exponent(-0.5 * kLog2E);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    store(dst + i, in_double(lambda, [&](F64 l) {
+            F64 sum(0.0);
+            for (std::size_t k = 0; k < count; ++k) {
+              const GaussianLobe& lobe = lobes[k];
+              const F64 from_mean = l - F64(lobe.mean_nm);
+              const F64 per_sigma = xsimd::select(from_mean < F64(0.0), F64(lobe.per_sigma_left),
+                                                  F64(lobe.per_sigma_right));
+              const F64 z = from_mean * per_sigma;
+              sum = sum + F64(lobe.amplitude) * exp2_double(hold((z * z) * to_exponent, kExponentLimit));
+            }
+            return sum;
+          }));
+  }
+}
+
+void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
+                float scale, std::size_t n) noexcept {
+  const Coefficients a = {{F32(c[0]), F32(c[1]), F32(c[2])}};
+  const F32 low(lowest_nm);
+  const F32 high(highest_nm);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
+    const F32 l = (held - F32(550.0F)) / F32(150.0F);
+    store(dst + i, or_nan(lambda, sigmoid_sample(a, l) * F32(scale)));
+  }
+}
+
+/// Calls put(k, u_k) for the `count` numbers that one random number stands for.
+template <class Put>
+inline void spread(F32 u, std::size_t count, Put put) noexcept {
+  const F32 one(1.0F);
+  const F32 first = limit_above(F32(1.0F - 0x1p-24F), limit_below(F32(0.0F), u));
+  for (std::size_t k = 0; k < count; ++k) {
+    const F32 moved = first + F32(static_cast<float>(k) / static_cast<float>(count));
+    put(k, or_nan(u, xsimd::select(moved >= one, moved - one, moved)));
+  }
+}
+
+void even_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
+                      const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+  const F32 flat(1.0F / d.range_nm);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    spread(load(u + i), count, [&](std::size_t k, F32 v) {
+      store(lambda_nm[k] + i, F32(d.first_nm) + v * F32(d.range_nm));
+      store(density[k] + i, flat);
+    });
+  }
+}
+
+void visible_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
+                         const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+  // atanh(y) = log2((1 + y) / (1 - y)) * ln(2) / 2
+  const F64 per_log2(0.5 * kLn2 * d.per_steepness_nm);
+  const F64 one(1.0);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    spread(load(u + i), count, [&](std::size_t k, F32 v) {
+      const auto y_of = [&](F64 w) { return F64(d.from) - w * F64(d.by); };
+      const F32 lambda = in_double(v, [&](F64 w) {
+        const F64 y = y_of(w);
+        return F64(d.centre_nm) - log2_double((one + y) / (one - y)) * per_log2;
+      });
+      const F32 pdf = in_double(v, [&](F64 w) {
+        const F64 y = y_of(w);
+        return F64(d.peak) * (one - y * y);
+      });
+      store(lambda_nm[k] + i, or_nan(v, lambda));
+      store(density[k] + i, pdf);
+    });
+  }
+}
+
+void project_wavelengths(float* const dst[3], const float* const* values, const float* const* lambda_nm,
+                         const float* const* density, const EvenTable curves[3], float factor,
+                         std::size_t count, std::size_t n) noexcept {
+  const F32 zero(0.0F);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    F32 sums[3] = {zero, zero, zero};
+    for (std::size_t k = 0; k < count; ++k) {
+      const F32 lambda = load(lambda_nm[k] + i);
+      const F32 pdf = load(density[k] + i);
+      const Mask live = differ(pdf, zero);
+      const F32 weight = load(values[k] + i) / pdf;
+      const EvenPlace place = place_in(curves[0], lambda);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const F32 value = or_nan(lambda, value_at(curves[c].pairs, place));
+        sums[c] = xsimd::select(live, sums[c] + value * weight, sums[c]);
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) store(dst[c] + i, F32(factor) * sums[c]);
+  }
+}
+
+}  // namespace
+}  // namespace spectile::kernels

@@ -1,0 +1,247 @@
+// SpectrumSampler: distributions as tables for the kernels.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <spectile/wavelengths.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/ops/shape.hpp"
+#include "src/ops/tiles.hpp"
+
+namespace spectile {
+
+using kernels::EvenTable;
+using kernels::GaussianLobe;
+using kernels::KernelTable;
+using kernels::KnotTable;
+
+namespace {
+
+/// Knots, slopes and buckets of a piecewise-linear function, and the memory that they lie in.
+struct Knots {
+  FloatBuffer knots;
+  FloatBuffer pairs;
+  std::vector<std::int32_t> start;
+  KnotTable table;
+};
+
+bool fits_float(double v) {
+  return std::abs(v) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
+/// Buckets a knot: with four, most buckets hold one knot at most, and the search takes one step.
+constexpr std::size_t kBucketsPerKnot = 4;
+constexpr std::size_t kMostBuckets = 4096;
+
+Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
+  const auto w = spectrum.wavelengths_nm();
+  const auto v = spectrum.values();
+  const std::size_t n = w.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!fits_float(w[i]) || !fits_float(v[i])) {
+      return make_error(ErrorCode::kBadArgument, "the sample {} at {} nm is beyond the range of float", v[i],
+                        w[i]);
+    }
+  }
+  Knots out;
+  const std::size_t buckets = std::clamp<std::size_t>(kBucketsPerKnot * n, 1, kMostBuckets);
+  const auto first = static_cast<float>(w.front());
+  const auto last = static_cast<float>(w.back());
+  const float range = last - first;
+  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides.
+  const float per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
+  const auto bucket_of = [&](float nm) {
+    return static_cast<std::size_t>(std::min(static_cast<float>(buckets - 1), (nm - first) * per_nm));
+  };
+  std::vector<std::size_t> last_in(buckets, 0);  // last knot up to the bucket's end
+  for (std::size_t i = 0; i < n; ++i) last_in[bucket_of(static_cast<float>(w[i]))] = i;
+  for (std::size_t b = 1; b < buckets; ++b) last_in[b] = std::max(last_in[b], last_in[b - 1]);
+  std::size_t most = 0;
+  for (std::size_t b = 0; b < buckets; ++b) {
+    const std::size_t before = b == 0 ? 0 : last_in[b - 1];
+    most = std::max(most, last_in[b] - before);
+    out.start.push_back(static_cast<std::int32_t>(before));
+  }
+  std::int32_t halvings = 0;
+  while ((std::size_t{1} << halvings) <= most) ++halvings;
+  auto knots = FloatBuffer::create(n + (std::size_t{1} << halvings));
+  if (!knots) return knots.error();
+  auto pairs = FloatBuffer::create(2 * n);
+  if (!pairs) return pairs.error();
+  out.knots = *std::move(knots);
+  out.pairs = *std::move(pairs);
+  std::fill_n(out.knots.data(), out.knots.size(), std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < n; ++i) {
+    out.knots.data()[i] = static_cast<float>(w[i]);
+    const double length = i + 1 < n ? w[i + 1] - w[i] : 0;
+    const double slope = length > 0 ? (v[i + 1] - v[i]) / length : 0;
+    out.pairs.data()[2 * i] = static_cast<float>(v[i]);
+    out.pairs.data()[2 * i + 1] = fits_float(slope) ? static_cast<float>(slope) : 0.0F;
+  }
+  out.table = {out.knots.data(), out.pairs.data(),    static_cast<std::int32_t>(n), out.start.data(),
+               per_nm,           static_cast<std::int32_t>(buckets), halvings,     held};
+  return out;
+}
+
+struct Even {
+  FloatBuffer pairs;
+  EvenTable table;
+};
+
+Result<Even> even_of(const DenselySampledSpectrum& spectrum) {
+  const auto v = spectrum.values();
+  auto pairs = FloatBuffer::create(2 * (v.size() - 1));
+  if (!pairs) return pairs.error();
+  Even out;
+  out.pairs = *std::move(pairs);
+  for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+    if (!fits_float(v[i]) || !fits_float(v[i + 1]) || !fits_float(v[i + 1] - v[i])) {
+      return make_error(ErrorCode::kBadArgument, "the sample {} at {} nm is beyond the range of float", v[i],
+                        spectrum.first_nm() + static_cast<int>(i));
+    }
+    out.pairs.data()[2 * i] = static_cast<float>(v[i]);
+    out.pairs.data()[2 * i + 1] = static_cast<float>(v[i + 1] - v[i]);
+  }
+  out.table = {out.pairs.data(), static_cast<float>(spectrum.first_nm()), 1.0F,
+               static_cast<std::int32_t>(v.size() - 1)};
+  return out;
+}
+
+}  // namespace
+
+/// What a distribution's kernel needs; which one it is says the kind.
+struct SpectrumSampler::Tables {
+  enum class Kind { kConstant, kKnots, kEven, kPlanck, kGaussians, kSigmoid } kind = Kind::kConstant;
+  float constant = 0;
+  Knots knots;  // also the white of a sigmoid's light
+  Even even;
+  double planck_factor = 0;
+  double planck_exponent_nm = 0;
+  std::vector<GaussianLobe> lobes;
+  std::array<float, 3> c{};
+  float lowest_nm = 0;
+  float highest_nm = 0;
+  float scale = 1;
+  bool white = false;
+
+  Result<void> set(const ConstantSpectrum& s) {
+    constant = static_cast<float>(s.value());
+    return {};
+  }
+  Result<void> set(const PiecewiseLinearSpectrum& s) { return set_knots(s.measured(), false, Kind::kKnots); }
+  Result<void> set(const DenselySampledSpectrum& s) {
+    kind = Kind::kEven;
+    auto made = even_of(s);
+    if (!made) return made.error();
+    even = *std::move(made);
+    return {};
+  }
+  Result<void> set(const BlackbodySpectrum& s) {
+    kind = Kind::kPlanck;
+    // From two places: the law's exponent from the temperature, the factor from a value.
+    constexpr double kSecondRadiation_nm_k = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;  // h c / k
+    planck_exponent_nm = kSecondRadiation_nm_k / s.temperature_k() * std::numbers::log2e;
+    const double peak_nm = kSecondRadiation_nm_k / s.temperature_k() / 4.965114231744276;
+    planck_factor = s(peak_nm) * std::pow(peak_nm, 5) *
+                    std::expm1(kSecondRadiation_nm_k / (peak_nm * s.temperature_k()));
+    return {};
+  }
+  Result<void> set(const GaussianSumSpectrum& s) {
+    kind = Kind::kGaussians;
+    for (const auto& l : s.lobes()) {
+      lobes.push_back({l.amplitude, l.mean_nm, 1 / l.sigma_left_nm, 1 / l.sigma_right_nm});
+    }
+    return {};
+  }
+  Result<void> set(const UpsampledSpectrum& s) {
+    if (!s.is_sigmoid()) return set_knots(*s.table(), true, Kind::kKnots);
+    c = s.coefficients();
+    scale = s.scale();
+    lowest_nm = static_cast<float>(s.first_nm());
+    highest_nm = static_cast<float>(s.last_nm());
+    white = s.table() != nullptr;
+    kind = Kind::kSigmoid;
+    return white ? set_knots(*s.table(), true, Kind::kSigmoid) : Result<void>{};
+  }
+  Result<void> set_knots(const MeasuredSpectrum& samples, bool held, Kind of) {
+    kind = of;
+    auto made = knots_of(samples, held);
+    if (!made) return made.error();
+    knots = *std::move(made);
+    return {};
+  }
+
+  void row(const KernelTable& kernels, const float* lambda_nm, float* out, std::size_t n) const {
+    switch (kind) {
+      case Kind::kConstant:
+        for (std::size_t i = 0; i < n; ++i) out[i] = std::isnan(lambda_nm[i]) ? lambda_nm[i] : constant;
+        break;
+      case Kind::kKnots:
+        kernels.look_up_knots(out, lambda_nm, knots.table, n);
+        break;
+      case Kind::kEven:
+        kernels.look_up_even(out, lambda_nm, even.table, n);
+        break;
+      case Kind::kPlanck:
+        kernels.planck(out, lambda_nm, planck_factor, planck_exponent_nm, n);
+        break;
+      case Kind::kGaussians:
+        kernels.gaussians(out, lambda_nm, lobes.data(), lobes.size(), n);
+        break;
+      case Kind::kSigmoid:
+        sigmoid_row(kernels, lambda_nm, out, n);
+        break;
+    }
+  }
+
+  void sigmoid_row(const KernelTable& kernels, const float* lambda_nm, float* out, std::size_t n) const {
+    kernels.sigmoid_at(out, lambda_nm, c.data(), lowest_nm, highest_nm, white ? 1.0F : scale, n);
+    if (!white) return;
+    // In the order of the batches of pixels: the sample, times the white, times the scale.
+    alignas(64) float whites[kLanesPerBlock];
+    for (std::size_t at = 0; at < n; at += kLanesPerBlock) {
+      kernels.look_up_knots(whites, lambda_nm + at, knots.table, kLanesPerBlock);
+      kernels.multiply(out + at, out + at, whites, kLanesPerBlock);
+      kernels.scale(out + at, out + at, scale, kLanesPerBlock);
+    }
+  }
+};
+
+Result<SpectrumSampler> SpectrumSampler::create(const Spectrum& spectrum) {
+  auto tables = std::make_shared<Tables>();
+  SPECTILE_TRY(std::visit([&](const auto& s) { return tables->set(s); }, spectrum.kind()));
+  SpectrumSampler out;
+  out.tables_ = std::move(tables);
+  return out;
+}
+
+Result<void> SpectrumSampler::sample(WavelengthView lambda_nm, WavelengthSpan values,
+                                     const Execution& how) const {
+  SPECTILE_TRY(shape::same_lanes(lambda_nm.lanes, values.lanes));
+  if (lambda_nm.count != values.count) {
+    return make_error(ErrorCode::kSizeMismatch, "one batch has {} wavelengths a lane, the other {}",
+                      lambda_nm.count, values.count);
+  }
+  SPECTILE_TRY(shape::aligned(lambda_nm.data));
+  SPECTILE_TRY(shape::aligned(values.data));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  tiles::for_blocks(blocks_for(values.lanes), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    for (std::size_t k = 0; k < values.count; ++k) {
+      tables_->row(**table, lambda_nm.row(k) + at, values.row(k) + at, count * kLanesPerBlock);
+    }
+  });
+  return {};
+}
+
+Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
+                    const Execution& how) {
+  const auto sampler = SpectrumSampler::create(spectrum);
+  if (!sampler) return sampler.error();
+  return sampler->sample(lambda_nm, values, how);
+}
+
+}  // namespace spectile

@@ -1,0 +1,133 @@
+// Scalar twins of the kernels for spectra at single wavelengths.
+#include "src/reference/wavelengths.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/reference/exponential.hpp"
+#include "src/reference/sigmoid.hpp"
+
+namespace spectile::reference {
+namespace {
+
+using kernels::EvenTable;
+using kernels::KnotTable;
+using kernels::WavelengthDensity;
+
+float value_at(const EvenTable& table, float lambda) {
+  if (std::isnan(lambda)) return lambda;
+  const float t = (lambda - table.first_nm) * table.per_nm;
+  if (!(t >= 0.0F && t <= static_cast<float>(table.intervals))) return 0;
+  const std::int32_t i = std::min(static_cast<std::int32_t>(t), table.intervals - 1);
+  const float part = t - static_cast<float>(i);
+  return table.pairs[2 * i] + part * table.pairs[2 * i + 1];
+}
+
+float value_at(const KnotTable& table, float lambda) {
+  if (std::isnan(lambda)) return lambda;
+  const float first = table.knots[0];
+  const float last = table.knots[table.count - 1];
+  if (!table.held && (lambda < first || lambda > last)) return 0;
+  const float held = std::clamp(lambda, first, last);
+  const float bucket = std::min(static_cast<float>(table.buckets - 1), (held - first) * table.buckets_per_nm);
+  std::int32_t knot = table.start[static_cast<std::int32_t>(bucket)];
+  for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
+    if (table.knots[knot + step] <= held) knot += step;
+  }
+  return table.pairs[2 * knot] + (held - table.knots[knot]) * table.pairs[2 * knot + 1];
+}
+
+/// The k-th of the numbers that one random number stands for.
+float spread(float u, std::size_t k, std::size_t count) {
+  if (std::isnan(u)) return u;
+  const float first = std::clamp(u, 0.0F, 1.0F - 0x1p-24F);
+  const float moved = first + static_cast<float>(k) / static_cast<float>(count);
+  return moved >= 1.0F ? moved - 1.0F : moved;
+}
+
+}  // namespace
+
+void look_up_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = value_at(table, lambda_nm[i]);
+}
+
+void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = value_at(table, lambda_nm[i]);
+}
+
+void planck(float* dst, const float* lambda_nm, double factor, double exponent_nm, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double l = lambda_nm[i];
+    if (std::isnan(l)) {
+      dst[i] = lambda_nm[i];
+    } else if (!(l > 0) || std::isinf(l)) {
+      dst[i] = 0;
+    } else {
+      const double power = ((l * l) * (l * l)) * l;
+      dst[i] = static_cast<float>((factor / power) / (exp2_double(hold(exponent_nm / l)) - 1.0));
+    }
+  }
+}
+
+void gaussians(float* dst, const float* lambda_nm, const kernels::GaussianLobe* lobes, std::size_t count,
+               std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double from_mean = lambda_nm[i] - lobes[k].mean_nm;
+      const double z = from_mean * (from_mean < 0 ? lobes[k].per_sigma_left : lobes[k].per_sigma_right);
+      sum = sum + lobes[k].amplitude * exp2_double(hold((z * z) * (-0.5 * kernels::kLog2E)));
+    }
+    dst[i] = static_cast<float>(sum);
+  }
+}
+
+void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
+                float scale, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float lambda = lambda_nm[i];
+    const float held = lambda < lowest_nm ? lowest_nm : (lambda > highest_nm ? highest_nm : lambda);
+    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(c, (held - 550.0F) / 150.0F) * scale;
+  }
+}
+
+void even_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
+                      const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      lambda_nm[k][i] = d.first_nm + spread(u[i], k, count) * d.range_nm;
+      density[k][i] = 1.0F / d.range_nm;
+    }
+  }
+}
+
+void visible_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
+                         const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const float v = spread(u[i], k, count);
+      const double y = d.from - v * d.by;
+      const double lambda = d.centre_nm - log2_double((1.0 + y) / (1.0 - y)) *
+                                              (0.5 * kernels::kLn2 * d.per_steepness_nm);
+      lambda_nm[k][i] = std::isnan(v) ? v : static_cast<float>(lambda);
+      density[k][i] = static_cast<float>(d.peak * (1.0 - y * y));
+    }
+  }
+}
+
+void project_wavelengths(float* const dst[3], const float* const* values, const float* const* lambda_nm,
+                         const float* const* density, const EvenTable curves[3], float factor,
+                         std::size_t count, std::size_t n) noexcept {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < n; ++i) {
+      float sum = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        if (density[k][i] == 0.0F) continue;
+        sum = sum + value_at(curves[c], lambda_nm[k][i]) * (values[k][i] / density[k][i]);
+      }
+      dst[c][i] = factor * sum;
+    }
+  }
+}
+
+}  // namespace spectile::reference
