@@ -9,6 +9,7 @@
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/relight.hpp>
+#include <spectile/representation.hpp>
 #include <spectile/result.hpp>
 #include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
