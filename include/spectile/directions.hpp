@@ -50,8 +50,7 @@ Vector3 normalized(const Vector3& v) noexcept;
 /// Kahan, How Futile are Mindless Assessments of Roundoff in Floating-Point Computation?, 2006, section 12.
 double angle_between(const Vector3& a, const Vector3& b) noexcept;
 
-// --- spherical coordinates: theta from the z axis, phi from the x axis towards y
-// ----------------------------
+// --- spherical coordinates: theta from the z axis, phi from the x axis towards y -------------------------
 
 /// The direction with these coordinates. Sine and cosine beyond -1 to 1 are limited to it; that their squares
 /// sum to 1 is the caller's matter. NaN goes through.
@@ -98,8 +97,7 @@ constexpr bool same_hemisphere(const Vector3& a, const Vector3& b) noexcept {
   return a.z * b.z > 0;
 }
 
-// --- frames
-// -------------------------------------------------------------------------------------------------
+// --- frames ----------------------------------------------------------------------------------------------
 
 /// Three orthonormal, right-handed axes.
 struct Frame {
@@ -114,8 +112,7 @@ struct Frame {
   constexpr Vector3 from_local(const Vector3& v) const noexcept { return v.x * x + v.y * y + v.z * z; }
 };
 
-// --- solid angles
-// -------------------------------------------------------------------------------------------
+// --- solid angles ----------------------------------------------------------------------------------------
 
 /// Solid angle of the whole sphere.
 inline constexpr double kSphereSolidAngle = 4 * std::numbers::pi;
@@ -147,8 +144,7 @@ double solid_angle_of_quad(const Vector3& a, const Vector3& b, const Vector3& c,
 /// length; sr. Absolute error below 4e-15.
 double solid_angle_of_rectangle(double x0, double x1, double y0, double y1, double z) noexcept;
 
-// --- the sphere as a square
-// ---------------------------------------------------------------------------------
+// --- the sphere as a square ------------------------------------------------------------------------------
 
 /// A direction for a point of the unit square, such that equal areas become equal solid angles. Continuous;
 /// the centre is +z, the four corners are -z. Coordinates beyond 0 to 1 are limited to it. Source: Clarberg,

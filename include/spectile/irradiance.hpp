@@ -43,8 +43,7 @@ struct QuadEmitter {
   Vector3 edge_v_m;
 };
 
-// --- in closed form
-// -----------------------------------------------------------------------------------------
+// --- in closed form --------------------------------------------------------------------------------------
 
 /// Of a disk whose plane is parallel to the receiver's: pi r^2 / (r^2 + h^2) on its axis; anywhere else too.
 /// Errors: also kBadArgument where the planes are not parallel to within 1e-9 rad. Relative error below
@@ -68,8 +67,7 @@ Result<SolidAngle> projected_solid_angle(std::span<const Vector3> polygon_m, con
 /// Siegel, Thermal Radiation Heat Transfer, 6th edition, configuration factor B-3.
 Result<SolidAngle> projected_solid_angle_over_corner(double side_a_m, double side_b_m, double height_m);
 
-// --- by quadrature: two ways that share no formula
-// ----------------------------------------------------------
+// --- by quadrature: two ways that share no formula -------------------------------------------------------
 
 /// Over the emitter's area: the midpoint rule on a grid of cells of equal area, in all at least `points`
 /// (rounded up to whole rows). The error falls as 1 / points, with a factor of about
