@@ -82,7 +82,7 @@ double BlackbodySpectrum::integral(double first_nm, double last_nm) const noexce
   // Narrow ranges would be lost in the difference of two series.
   if (last_nm < 4 * from) return quadrature::adaptive(*this, from, last_nm, 1e-13);
   const double unit = kPlanck * kLight / (kNanometre * kBoltzmann * temperature_k_);  // nm
-  const double power = std::pow(kBoltzmann * temperature_k_, 4) / std::pow(kPlanck * kLight, 3) / kPlanck;
+  const double power = std::pow(kBoltzmann * temperature_k_ / (kPlanck * kLight), 4);
   const double whole = 2 * kPlanck * kLight * kLight * power;
   const double below = from > 0 ? tail(unit / from) : 0;
   return factor_ * whole * (tail(unit / last_nm) - below);
