@@ -69,10 +69,10 @@ Result<SolidAngle> projected_solid_angle_over_corner(double side_a_m, double sid
 
 // --- by quadrature: two ways that share no formula -------------------------------------------------------
 
-/// Over the emitter's area: the midpoint rule on a grid of cells of equal area, in all at least `points`
-/// (rounded up to whole rows). The error falls as 1 / points, with a factor of about
-/// (size / distance)^2: keep the emitter's size within ten times its distance. Where the horizon cuts the
-/// emitter it falls as points^(-1/2) at worst.
+/// Over the emitter's area: the midpoint rule on a grid of cells of equal area, at least `points` of them
+/// (rounded up to a square). The error falls as 1 / points, also where the horizon cuts the emitter, and is
+/// below 1 / points for an emitter not larger than its distance. One much larger than its distance needs
+/// enough points that a cell is not.
 Result<SolidAngle> projected_solid_angle_by_area(const DiskEmitter& emitter, const Receiver& receiver,
                                                  std::size_t points);
 Result<SolidAngle> projected_solid_angle_by_area(const QuadEmitter& emitter, const Receiver& receiver,
@@ -81,7 +81,7 @@ Result<SolidAngle> projected_solid_angle_by_area(const QuadEmitter& emitter, con
 /// Over directions: rays, one in each cell of equal solid angle of the cone about the emitter's bounding
 /// sphere (or of the hemisphere, where the receiver is in that sphere), at least `points` of them (rounded up
 /// to a square), that hit the emitter or do not. Stratified: the standard error falls as points^(-3/4), and
-/// is about (cone's solid angle) * points^(-3/4). The same seed gives the same bits on every machine with the
+/// is below (cone's solid angle) * points^(-3/4). The same seed gives the same bits on every machine with the
 /// same mathematical library.
 Result<SolidAngle> projected_solid_angle_by_directions(const DiskEmitter& emitter, const Receiver& receiver,
                                                        std::size_t points, std::uint64_t seed = 0);
