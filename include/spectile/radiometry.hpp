@@ -45,8 +45,8 @@ Rate photon_rate(RadiantFlux flux, double lambda_nm) noexcept;
 
 /// Photons per second in a flux of many, from its density in W/nm. Numbers: as inner_product(). Errors:
 /// kBadArgument unless 0 <= first_nm < last_nm < infinity.
-Result<Rate> photon_rate(const Spectrum& spectral_flux, double first_nm = kFirstVisible_nm,
-                         double last_nm = kLastVisible_nm);
+Result<Rate> photon_rate(const Spectrum& spectral_flux, double first_nm = kFirstVisibleNm,
+                         double last_nm = kLastVisibleNm);
 
 // --- luminous quantities ---------------------------------------------------------------------------------
 

@@ -16,8 +16,8 @@ namespace spectile {
 
 /// The range over which distributions are tabulated and integrated where none is given. Units: nm. Source: CIE
 /// 015:2018, range of the standard observers.
-inline constexpr double kFirstVisible_nm = 360;
-inline constexpr double kLastVisible_nm = 830;
+inline constexpr double kFirstVisibleNm = 360;
+inline constexpr double kLastVisibleNm = 830;
 
 /// What all distributions have in common, on top of operator(), integral(), max_value() and to_text().
 template <class Distribution>
@@ -97,8 +97,8 @@ class DenselySampledSpectrum : public SpectrumOperations<DenselySampledSpectrum>
   /// Tabulates a spectrum at whole nanometres. Units: nm. Errors: kBadArgument where last is not above first
   /// or the range holds more than 100000 nm.
   static Result<DenselySampledSpectrum> from(const Spectrum& spectrum,
-                                             int first_nm = static_cast<int>(kFirstVisible_nm),
-                                             int last_nm = static_cast<int>(kLastVisible_nm));
+                                             int first_nm = static_cast<int>(kFirstVisibleNm),
+                                             int last_nm = static_cast<int>(kLastVisibleNm));
   /// From one value for every nanometre from first_nm on. Errors: kBadArgument for fewer than two values or
   /// one that is not finite.
   static Result<DenselySampledSpectrum> from_values(int first_nm, std::vector<double> values);
@@ -229,7 +229,7 @@ class Spectrum : public SpectrumOperations<Spectrum> {
   const Kind& kind() const noexcept { return kind_; }
   double operator()(double lambda_nm) const noexcept;
   double max_value() const noexcept;
-  double integral(double first_nm = kFirstVisible_nm, double last_nm = kLastVisible_nm) const noexcept;
+  double integral(double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm) const noexcept;
   /// One line that says what it is.
   std::string to_text() const;
 
@@ -239,8 +239,8 @@ class Spectrum : public SpectrumOperations<Spectrum> {
 
 /// Integral of the product of two spectra: exact where both are piecewise linear, else by Gauss-Legendre
 /// quadrature between their samples to a relative 1e-9 of the integral of the product's magnitude.
-double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFirstVisible_nm,
-                     double last_nm = kLastVisible_nm);
+double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFirstVisibleNm,
+                     double last_nm = kLastVisibleNm);
 
 /// A reflectance between 0 and 1 for an RGB colour between 0 and 1, by an upsampler of reflectances.
 /// Errors: kBadArgument for an upsampler of another quantity, and as UpsampledSpectrum::from_rgb.

@@ -73,7 +73,7 @@ enum class WavelengthSampling {
 /// Source of the density: Radziszewski, Boryczko, Alda, An Improved Technique for Full Spectral Rendering,
 /// Journal of WSCG 17, 2009.
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
-                                double first_nm = kFirstVisible_nm, double last_nm = kLastVisible_nm,
+                                double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
                                 const Execution& how = {});
 
 /// Terminates all but the first wavelength of the lanes whose `lanes_hit` is not 0 (of all, where it is empty),

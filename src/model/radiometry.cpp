@@ -22,8 +22,8 @@ constexpr Length metres(double lambda_nm) {
 
 /// Where a distribution's radiation is: see luminous_efficacy().
 struct Range {
-  double first_nm = kFirstVisible_nm;
-  double last_nm = kLastVisible_nm;
+  double first_nm = kFirstVisibleNm;
+  double last_nm = kLastVisibleNm;
 };
 Range range_of(const ConstantSpectrum& /*spectrum*/) {
   return {};

@@ -36,8 +36,8 @@ double UpsampledSpectrum::max_value() const noexcept {
     const double vertex = c_[0] < 0 ? -0.5 * static_cast<double>(c_[1]) / static_cast<double>(c_[0]) : 0;
     return std::max(best, (*this)(c_[0] < 0 ? 550 + 150 * vertex : first_nm_));
   }
-  constexpr double kStep_nm = 0.1;
-  for (double nm = first_nm_; nm < last_nm_; nm += kStep_nm) best = std::max(best, (*this)(nm));
+  constexpr double kStepNm = 0.1;
+  for (double nm = first_nm_; nm < last_nm_; nm += kStepNm) best = std::max(best, (*this)(nm));
   for (const double nm : table_->wavelengths_nm()) best = std::max(best, (*this)(nm));
   return best;
 }

@@ -27,7 +27,7 @@ Result<std::array<double, 3>> xyz_of(const Spectrum& spectrum, const Spectrum* u
         DenselySampledSpectrum::from_values(static_cast<int>(cie.first_nm), std::move(weights));
     if (!curve) return curve.error();
     out[c] = inner_product(*curve, spectrum);
-    if (c == 1) whole = curve->integral(kFirstVisible_nm, kLastVisible_nm);
+    if (c == 1) whole = curve->integral(kFirstVisibleNm, kLastVisibleNm);
   }
   for (double& v : out) v /= whole;
   return out;

@@ -141,11 +141,11 @@ struct SpectrumSampler::Tables {
   Result<void> set(const BlackbodySpectrum& s) {
     kind = Kind::kPlanck;
     // From two places: the law's exponent from the temperature, the factor from a value.
-    constexpr double kSecondRadiation_nm_k = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;  // h c / k
-    planck_exponent_nm = kSecondRadiation_nm_k / s.temperature_k() * std::numbers::log2e;
-    const double peak_nm = kSecondRadiation_nm_k / s.temperature_k() / 4.965114231744276;
+    constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;  // h c / k
+    planck_exponent_nm = kSecondRadiationNmK / s.temperature_k() * std::numbers::log2e;
+    const double peak_nm = kSecondRadiationNmK / s.temperature_k() / 4.965114231744276;
     planck_factor = s(peak_nm) * std::pow(peak_nm, 5) *
-                    std::expm1(kSecondRadiation_nm_k / (peak_nm * s.temperature_k()));
+                    std::expm1(kSecondRadiationNmK / (peak_nm * s.temperature_k()));
     return {};
   }
   Result<void> set(const GaussianSumSpectrum& s) {

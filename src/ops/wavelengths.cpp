@@ -17,21 +17,21 @@ using kernels::EvenTable;
 using kernels::WavelengthDensity;
 
 // Centre and steepness of the sensitivity. Source: Radziszewski, Boryczko, Alda 2009.
-constexpr double kCentre_nm = 538;
+constexpr double kCentreNm = 538;
 constexpr double kSteepness = 0.0072;  // 1/nm
 
-constexpr int kFirst_nm = static_cast<int>(kFirstVisible_nm);
-constexpr int kLast_nm = static_cast<int>(kLastVisible_nm);
-constexpr std::int32_t kIntervals = kLast_nm - kFirst_nm;
+constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
+constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
+constexpr std::int32_t kIntervals = kLastNm - kFirstNm;
 
 WavelengthDensity density_over(double first_nm, double last_nm) {
   WavelengthDensity d{};
   d.first_nm = static_cast<float>(first_nm);
   d.range_nm = static_cast<float>(last_nm - first_nm);
-  d.centre_nm = kCentre_nm;
+  d.centre_nm = kCentreNm;
   d.per_steepness_nm = 1 / kSteepness;
-  d.from = std::tanh(kSteepness * (kCentre_nm - first_nm));
-  d.by = std::tanh(kSteepness * (last_nm - kCentre_nm)) + d.from;
+  d.from = std::tanh(kSteepness * (kCentreNm - first_nm));
+  d.by = std::tanh(kSteepness * (last_nm - kCentreNm)) + d.from;
   d.peak = kSteepness / d.by;
   return d;
 }
@@ -118,9 +118,9 @@ Result<ResponseCurves> ResponseCurves::of_observer(Observer observer) {
   const std::span<const double> bars[3] = {cie.x_bar, cie.y_bar, cie.z_bar};
   std::vector<Spectrum> curves;
   for (const auto& bar : bars) {
-    auto curve = DenselySampledSpectrum::from_values(kFirst_nm, {bar.begin(), bar.end()});
+    auto curve = DenselySampledSpectrum::from_values(kFirstNm, {bar.begin(), bar.end()});
     if (!curve) return curve.error();
-    if (&bar == &bars[1]) whole = curve->integral(kFirstVisible_nm, kLastVisible_nm);
+    if (&bar == &bars[1]) whole = curve->integral(kFirstVisibleNm, kLastVisibleNm);
     curves.emplace_back(*std::move(curve));
   }
   return create({curves[0], curves[1], curves[2]}, {1 / whole, 1 / whole, 1 / whole});
@@ -133,13 +133,13 @@ Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& cur
   for (std::size_t c = 0; c < 3; ++c) {
     float* const pairs = buffer->data() + c * 2 * kIntervals;
     for (std::int32_t i = 0; i < kIntervals; ++i) {
-      const double value = factors[c] * curves[c](kFirst_nm + i);
-      const double next = factors[c] * curves[c](kFirst_nm + i + 1);
+      const double value = factors[c] * curves[c](kFirstNm + i);
+      const double next = factors[c] * curves[c](kFirstNm + i + 1);
       pairs[2 * i] = static_cast<float>(value);
       pairs[2 * i + 1] = static_cast<float>(next - value);
       if (!std::isfinite(pairs[2 * i]) || !std::isfinite(pairs[2 * i + 1])) {
         return make_error(ErrorCode::kBadArgument, "response curve {} is {} at {} nm", c + 1, value,
-                          kFirst_nm + i);
+                          kFirstNm + i);
       }
     }
   }
@@ -161,7 +161,7 @@ Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
   if (!table) return table.error();
   EvenTable tables[3];
   for (std::size_t c = 0; c < 3; ++c) {
-    tables[c] = {curves.table() + c * 2 * kIntervals, static_cast<float>(kFirst_nm), 1.0F, kIntervals};
+    tables[c] = {curves.table() + c * 2 * kIntervals, static_cast<float>(kFirstNm), 1.0F, kIntervals};
   }
   const float factor = 1.0F / static_cast<float>(radiance.count);
   tiles::for_blocks(blocks_for(radiance.lanes), how, [&](std::size_t first, std::size_t count) {
