@@ -8,6 +8,7 @@
 #include <spectile/image.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
+#include <spectile/named_spectra.hpp>
 #include <spectile/relight.hpp>
 #include <spectile/result.hpp>
 #include <spectile/rgb_space.hpp>

@@ -16,7 +16,6 @@ namespace {
 /// A table of any of the files in src/data; wavelengths are first_nm + i * step_nm where there are none.
 struct Entry {
   NamedSpectrumInfo info;
-  std::string alias;  // empty: none
   std::span<const double> wavelengths_nm;
   double first_nm = 0;
   double step_nm = 0;
@@ -70,15 +69,11 @@ void add_optical_constants(std::vector<Entry>& out, bool absorption) {
     const char* const suffix = absorption ? "-k" : "-eta";
     const std::string symbol = m.symbol;
     const std::string material = m.material;
-    // A glass has no other name; two are of one kind.
+    // The glasses have none: there are many of each kind.
     const std::string alias = m.k.empty() ? "" : material + suffix;
-    const std::string about = alias.empty() ? material : fmt::format("{}, also {}", material, alias);
-    out.push_back({{symbol + suffix, absorption ? "absorption index" : "refractive index", about, kPbrt},
-                   alias,
-                   m.wavelengths_nm,
-                   0,
-                   0,
-                   absorption ? m.k : m.eta});
+    const char* const kind = absorption ? "absorption index" : "refractive index";
+    out.push_back(
+        {{symbol + suffix, kind, material, kPbrt, alias}, m.wavelengths_nm, 0, 0, absorption ? m.k : m.eta});
   }
 }
 
@@ -88,8 +83,7 @@ void add_observer(std::vector<Entry>& out, const data::MatchingFunctions& f, con
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const char letter = static_cast<char>('x' + i);
     out.push_back({{fmt::format("{}-{}", name, letter), "observer",
-                    fmt::format("colour matching function {} of the {}", letter, about), kCie},
-                   "",
+                    fmt::format("colour matching function {} of the {}", letter, about), kCie, ""},
                    {},
                    f.first_nm,
                    f.step_nm,
@@ -103,15 +97,14 @@ std::vector<Entry> make_entries() {
     const auto* const d = std::ranges::find_if(
         kIlluminants, [&](const Description& known) { return std::string_view(known.name) == t.name; });
     const char* const about = d == std::end(kIlluminants) ? "CIE illuminant" : d->about;
-    out.push_back({{t.name, "illuminant", about, kCie}, "", {}, t.first_nm, t.step_nm, t.values});
+    out.push_back({{t.name, "illuminant", about, kCie, ""}, {}, t.first_nm, t.step_nm, t.values});
   }
   add_optical_constants(out, false);
   add_optical_constants(out, true);
   for (const data::NamedTable& t : data::canon_eos_5d_mkii()) {
     const char* const color = *t.name == 'r' ? "red" : *t.name == 'g' ? "green" : "blue";
     out.push_back({{fmt::format("canon-eos-5d-mkii-{}", t.name), "camera response",
-                    fmt::format("Canon EOS 5D Mark II, {}", color), kPbrt},
-                   "",
+                    fmt::format("Canon EOS 5D Mark II, {}", color), kPbrt, ""},
                    {},
                    t.first_nm,
                    t.step_nm,
@@ -122,8 +115,7 @@ std::vector<Entry> make_entries() {
   int number = 1;
   for (const data::NamedTable& t : data::colorchecker()) {
     out.push_back({{"colorchecker-" + patch_name(t.name), "reflectance",
-                    fmt::format("ColorChecker, patch {}, {}", number++, t.name), "BabelColor"},
-                   "",
+                    fmt::format("ColorChecker, patch {}, {}", number++, t.name), "BabelColor", ""},
                    {},
                    t.first_nm,
                    t.step_nm,
@@ -194,7 +186,7 @@ std::vector<std::string> names_near(std::string_view text) {
   };
   for (const Entry& e : entries()) {
     consider(e.info.name);
-    if (!e.alias.empty()) consider(e.alias);
+    if (!e.info.alias.empty()) consider(e.info.alias);
   }
   for (const char* formula : {"blackbody:3200", "daylight:5003", "constant:0.5"}) {
     const std::string_view known(formula);
@@ -268,7 +260,8 @@ Result<Spectrum> named_spectrum(std::string_view name) {
   if (auto made = formula(name)) return *std::move(made);
   const std::string wanted = lower(name);
   for (const Entry& e : entries()) {
-    if (wanted == lower(e.info.name) || (!e.alias.empty() && wanted == lower(e.alias))) return table_of(e);
+    if (wanted == lower(e.info.name) || (!e.info.alias.empty() && wanted == lower(e.info.alias)))
+      return table_of(e);
   }
   return unknown(name);
 }
