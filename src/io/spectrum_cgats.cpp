@@ -140,30 +140,22 @@ Result<double> number_of(const TextFile& file, const Table& table, std::string_v
   return *value;
 }
 
-/// Which fields are spectral, in their order. Each name's number must be its wavelength, to the nanometre.
+/// Which fields are spectral, in their order. The numbers in their names are not read: real files have
+/// SPEC_383 for 383.33 nm and SPEC_300000 for 300 nm.
 Result<std::vector<std::size_t>> spectral_fields(const TextFile& file, const Table& table,
-                                                 const std::vector<double>& wavelengths) {
+                                                 std::size_t bands) {
   std::vector<std::size_t> out;
   if (table.format_line == 0) {
-    for (std::size_t i = 0; i < wavelengths.size(); ++i) out.push_back(i);
+    for (std::size_t i = 0; i < bands; ++i) out.push_back(i);
     return out;
   }
   for (std::size_t i = 0; i < table.fields.size(); ++i) {
-    const std::string_view field = table.fields[i];
-    if (!field.starts_with("SPEC")) continue;
-    const std::size_t letters = field.find_last_not_of("0123456789.");
-    const auto nm = number_in(field.substr(letters + 1));
-    if (nm && out.size() < wavelengths.size() && std::abs(*nm - wavelengths[out.size()]) > 1) {
-      return line_error(file, table.format_line,
-                        fmt::format("the field {} stands where {:.6g} nm is expected", quoted(field),
-                                    wavelengths[out.size()]));
-    }
-    out.push_back(i);
+    if (table.fields[i].starts_with("SPEC")) out.push_back(i);
   }
-  if (out.size() != wavelengths.size()) {
-    return line_error(file, table.format_line,
-                      fmt::format("the data have {} fields SPEC_*, but SPECTRAL_BANDS is {}", out.size(),
-                                  wavelengths.size()));
+  if (out.size() != bands) {
+    return line_error(
+        file, table.format_line,
+        fmt::format("the data have {} fields SPEC_*, but SPECTRAL_BANDS is {}", out.size(), bands));
   }
   return out;
 }
@@ -225,7 +217,7 @@ Result<SampleLines> read_cgats(const TextFile& file, std::size_t column) {
   for (double i = 0; i < *bands; ++i) {
     out.wavelengths_nm.push_back(*start + (*end - *start) * i / (*bands - 1));
   }
-  const auto places = spectral_fields(file, *table, out.wavelengths_nm);
+  const auto places = spectral_fields(file, *table, out.wavelengths_nm.size());
   if (!places) return places.error();
   const std::size_t fields = table->format_line == 0 ? places->size() : table->fields.size();
   const auto rows = count_rows(file, *table, fields);
