@@ -228,7 +228,8 @@ void add_spectra(CLI::App& app, int& exit) {
         const bool good = CLI::detail::lexical_cast(text, nm) && std::isfinite(nm);
         return good ? std::string() : text + " is not a wavelength";
       });
-  command->add_option("--column", a->column, "Data row of a CGATS file that has several, from 0");
+  command->add_option("--column", a->column, "Data row of a CGATS file that has several, from 0")
+      ->check(CLI::NonNegativeNumber);
   add_common(*command, a->common);
   csv->excludes("--json");
   command->callback([a, &exit] {
