@@ -142,8 +142,7 @@ TEST(NamedSpectra, DaylightFormulaMakesTheDaylights) {
 }
 
 TEST(NamedSpectra, DaylightHasThePublishedChromaticity) {
-  // CIE 015:2018: D65 is 0.31271 (computed from its spectrum 0.31272), D50 0.34567. The curve itself leaves
-  // its spectra's y by 1e-4.
+  // CIE 015:2018, of the illuminants' spectra; the locus of daylight passes their y at 1e-4.
   const auto d65 = daylight_chromaticity(6504);
   const auto d50 = daylight_chromaticity(5003);
   ASSERT_TRUE(d65 && d50);
