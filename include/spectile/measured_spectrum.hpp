@@ -58,9 +58,9 @@ Result<MeasuredSpectrum> illuminant(std::string_view name);
 /// Names that illuminant() knows.
 std::vector<std::string> illuminant_names();
 
-/// Reads "wavelength_nm,value" lines; blank lines, lines that start with #, one heading of words before the
-/// first sample and a byte order mark are passed over; comma, semicolon, tab or spaces separate. Errors:
-/// kBadFile with the line's number, kNoPermission.
+/// Reads "wavelength_nm,value" lines; blank lines, lines that start with #, headings (lines before the first
+/// sample that begin with neither digit, sign nor point) and a byte order mark are passed over; comma,
+/// semicolon, tab or spaces separate. Errors: kBadFile with the line's number, kNoPermission.
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path);
 
 }  // namespace spectile

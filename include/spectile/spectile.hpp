@@ -10,6 +10,7 @@
 #include <spectile/irradiance.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
+#include <spectile/named_spectra.hpp>
 #include <spectile/radiometry.hpp>
 #include <spectile/relight.hpp>
 #include <spectile/representation.hpp>

@@ -256,8 +256,8 @@ Result<UpsampledSpectrum> rgb_illuminant_spectrum(const Upsampler& upsampler,
 /// Daylight of a correlated colour temperature, 300 to 830 nm, 100 at 560 nm.
 /// Units: K (the scale of 1968 and later: D65 is 6504 K). Errors: kBadArgument outside 4000 to 25000 K.
 /// Source: CIE 015:2018, 4.1.2: chromaticity, M1 and M2 rounded to three decimals, S0, S1, S2 at 5 nm.
-Result<PiecewiseLinearSpectrum> daylight(double temperature_k);
-/// Its chromaticity (x, y). Errors and source as for daylight().
+Result<PiecewiseLinearSpectrum> daylight_spectrum(double temperature_k);
+/// Its chromaticity (x, y). Errors and source as for daylight_spectrum().
 Result<std::array<double, 2>> daylight_chromaticity(double temperature_k);
 
 }  // namespace spectile

@@ -66,7 +66,11 @@ std::string speed_text(std::uint64_t pixels, double seconds);
 /// "1.2 GB".
 std::string size_text(std::uint64_t bytes);
 
-/// Lines that draw values over wavelengths, 60 columns wide.
+/// Lines that draw one bar a value, the values being averages over even parts of a range of wavelengths.
+/// Bars stand on 0, or on the least value where that is below.
+std::vector<std::string> plot_columns(std::span<const double> values, int rows, double first_nm,
+                                      double last_nm);
+/// Lines that draw values over wavelengths, 60 columns wide and 10 rows high.
 std::vector<std::string> plot(std::span<const float> values, const Bands& bands);
 
 /// True once SIGINT or SIGTERM has come.
@@ -82,5 +86,6 @@ void add_relight(CLI::App& app, int& exit);
 void add_project(CLI::App& app, int& exit);
 void add_info(CLI::App& app, int& exit);
 void add_verify(CLI::App& app, int& exit);
+void add_spectra(CLI::App& app, int& exit);
 
 }  // namespace spectile::cli

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   add_project(app, exit);
   add_info(app, exit);
   add_verify(app, exit);
+  add_spectra(app, exit);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -85,7 +85,7 @@ int apply_method_options(const MethodArguments& a, MethodOptions& out) {
     auto light = load_light(a.light);
     if (!light) return complain(light.error());
     // D65 by name is what there is without any.
-    if (light->name != "D65") out.light = *std::move(light);
+    if (CLI::detail::to_lower(a.light) != "d65") out.light = *std::move(light);
   }
   out.observer = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
   if (!a.input_space.empty()) {
@@ -107,24 +107,31 @@ int apply_method_options(const MethodArguments& a, MethodOptions& out) {
 }
 
 Result<NamedLight> load_light(const std::string& text) {
-  std::error_code ignored;
-  const bool file = text.find('/') != std::string::npos || text.find('.') != std::string::npos ||
-                    std::filesystem::is_regular_file(text, ignored);
-  auto known = illuminant(text);
-  if (known) {
-    for (const std::string& name : illuminant_names()) {
-      if (CLI::detail::to_lower(name) == CLI::detail::to_lower(text))
-        return NamedLight{name, *std::move(known)};
-    }
+  auto found = find_spectrum(text);
+  if (!found) return found.error();
+  std::string name = named_spectrum(text) ? text : std::filesystem::path(text).filename().string();
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    if (CLI::detail::to_lower(info.name) == CLI::detail::to_lower(text)) name = info.name;
   }
-  if (!file) return known.error();
-  auto loaded = load_spectrum_csv(text);
-  if (!loaded) return loaded.error();
-  return NamedLight{std::filesystem::path(text).filename().string(), *std::move(loaded)};
+  if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&found->kind())) {
+    return NamedLight{std::move(name), linear->measured()};
+  }
+  const std::vector<double> wavelengths = tabulated_nm();
+  auto table = MeasuredSpectrum::from_samples(wavelengths, found->sample(wavelengths));
+  if (!table) return table.error();
+  return NamedLight{std::move(name), *std::move(table)};
+}
+
+std::vector<double> tabulated_nm() {
+  std::vector<double> out;
+  for (int nm = 300; nm <= 830; ++nm) out.push_back(nm);
+  return out;
 }
 
 std::string light_help() {
-  return "a file of wavelength,value lines, or one of " + joined(illuminant_names());
+  return "a spectrum as spectile spectra takes it: blackbody:KELVIN, daylight:KELVIN, a file, or a name, of "
+         "which the lights are " +
+         joined(illuminant_names());
 }
 
 Adaptation adaptation_of(const std::string& text) {

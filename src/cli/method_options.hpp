@@ -25,11 +25,14 @@ void add_method_options(CLI::App& command, MethodArguments& a);
 /// Fills `out`; the exit code of what is wrong, after saying it.
 int apply_method_options(const MethodArguments& a, MethodOptions& out);
 
-/// A light by name, or from a file of wavelength,value lines where the text has a slash or a point in it or
-/// names a file.
+/// A light: whatever find_spectrum() takes. Beyond a table's samples it has the value of the nearest one;
+/// formulas are tabulated at tabulated_nm(), beyond which the same holds.
 Result<NamedLight> load_light(const std::string& text);
 
-/// "a file of wavelength,value lines, or one of A, C, ...".
+/// Where formulas become tables: every nanometre from 300 to 830.
+std::vector<double> tabulated_nm();
+
+/// "a spectrum as spectile spectra takes it: ...".
 std::string light_help();
 
 /// none, bradford or cat16.

@@ -17,40 +17,53 @@ constexpr const char* kEighths[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆
 
 }  // namespace
 
-std::vector<std::string> plot(std::span<const float> values, const Bands& bands) {
-  float top = 0;
-  float bottom = 0;
-  for (const float v : values) {
+std::vector<std::string> plot_columns(std::span<const double> values, int rows, double first_nm,
+                                      double last_nm) {
+  double top = 0;
+  double bottom = 0;
+  for (const double v : values) {
     if (!std::isfinite(v)) continue;
     top = std::max(top, v);
     bottom = std::min(bottom, v);
   }
   if (top == bottom) top = bottom + 1;
-  const double first = bands[0].lower_nm;
-  const double last = bands[bands.count() - 1].upper_nm;
   std::vector<int> heights;  // in eighths of a row
-  for (int column = 0; column < kColumns; ++column) {
-    const double lambda = first + (column + 0.5) / kColumns * (last - first);
-    std::size_t b = 0;
-    while (b + 1 < bands.count() && bands[b].upper_nm <= lambda) ++b;
-    const double v =
-        std::isfinite(values[b]) ? (static_cast<double>(values[b]) - bottom) / (top - bottom) : 0.0;
-    heights.push_back(static_cast<int>(std::lround(v * 8 * kRows)));
+  for (const double value : values) {
+    // Divided first, as the difference of the largest values is infinite.
+    const double range = top / 2 - bottom / 2;
+    const double v = std::isfinite(value) ? (value / 2 - bottom / 2) / range : 0.0;
+    heights.push_back(static_cast<int>(std::lround(v * 8 * rows)));
   }
   std::vector<std::string> lines;
-  for (int row = kRows - 1; row >= 0; --row) {
-    const double level = bottom + (row + 1.0) / kRows * (top - bottom);
-    std::string line =
-        row == kRows - 1 || row == kRows / 2 - 1 ? fmt::format("{:>9.4g} │", level) : "          │";
+  for (int row = rows - 1; row >= 0; --row) {
+    const double part = (row + 1.0) / rows;
+    std::string line = row == rows - 1 || row == rows / 2 - 1
+                           ? fmt::format("{:>9.4g} │", (1 - part) * bottom + part * top)
+                           : "          │";
     for (const int height : heights) line += kEighths[std::clamp(height - 8 * row, 0, 8)];
     lines.push_back(line);
   }
   std::string axis = fmt::format("{:>9.4g} └", bottom);
-  for (int column = 0; column < kColumns; ++column) axis += "─";
+  for (std::size_t column = 0; column < values.size(); ++column) axis += "─";
   lines.push_back(axis);
-  lines.push_back(fmt::format("           {:<20.6g}{:^20.6g}{:>20}", first, 0.5 * (first + last),
-                              fmt::format("{:.6g} nm", last)));
+  const std::size_t third = values.size() / 3;
+  lines.push_back(fmt::format("           {:<{}.6g}{:^{}.6g}{:>{}}", first_nm, third,
+                              0.5 * (first_nm + last_nm), values.size() - 2 * third,
+                              fmt::format("{:.6g} nm", last_nm), third));
   return lines;
+}
+
+std::vector<std::string> plot(std::span<const float> values, const Bands& bands) {
+  const double first = bands[0].lower_nm;
+  const double last = bands[bands.count() - 1].upper_nm;
+  std::vector<double> columns;
+  for (int column = 0; column < kColumns; ++column) {
+    const double lambda = first + (column + 0.5) / kColumns * (last - first);
+    std::size_t b = 0;
+    while (b + 1 < bands.count() && bands[b].upper_nm <= lambda) ++b;
+    columns.push_back(static_cast<double>(values[b]));
+  }
+  return plot_columns(columns, kRows, first, last);
 }
 
 }  // namespace spectile::cli

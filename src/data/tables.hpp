@@ -1,4 +1,4 @@
-// The published tables: observers, illuminants, basis spectra.
+// The published tables: observers, illuminants, basis spectra, materials, a camera, a colour chart.
 #pragma once
 
 #include <span>
@@ -18,6 +18,21 @@ struct NamedTable {
   double first_nm;
   double step_nm;
   std::span<const double> values;
+};
+
+/// Daylight is S0 + M1 S1 + M2 S2. Units: nm.
+struct DaylightBasis {
+  double first_nm;
+  double step_nm;
+  std::span<const double> s0, s1, s2;
+};
+
+/// A material's refractive index eta and absorption index k, which glasses lack. Units: nm.
+struct OpticalConstants {
+  const char* symbol;
+  const char* material;
+  std::span<const double> wavelengths_nm;
+  std::span<const double> eta, k;
 };
 
 /// Smits's seven basis spectra and the factor that goes with them.
@@ -46,6 +61,10 @@ struct SigmoidStart {
 extern const MatchingFunctions kCie1931;
 extern const MatchingFunctions kCie1964;
 std::span<const NamedTable> illuminants();
+extern const DaylightBasis kDaylightBasis;
+std::span<const OpticalConstants> optical_constants();
+std::span<const NamedTable> canon_eos_5d_mkii();  // r, g, b
+std::span<const NamedTable> colorchecker();       // 24 patches
 extern const SmitsData kSmitsReflectance;
 extern const SmitsData kSmitsIlluminant;
 extern const SmitsData kSmits1999;

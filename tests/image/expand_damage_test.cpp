@@ -52,8 +52,16 @@ class ExpandDamage : public testing::Test {
     EXPECT_EQ(texture.error().message, report.error().message);
   }
 
+  /// Takes an attribute away. Not by Header::erase(), which leaks it in OpenEXR 3.1.
+  static void remove(Imf::Header& header, const std::string& name) {
+    Imf::Header rest;
+    for (auto i = header.begin(); i != header.end(); ++i) {
+      if (i.name() != name) rest.insert(i.name(), i.attribute());
+    }
+    header = rest;
+  }
   static void set(Imf::Header& header, const std::string& name, const std::string& text) {
-    header.erase(name);
+    remove(header, name);
     header.insert(name, Imf::StringAttribute(text));
   }
 
@@ -66,7 +74,7 @@ TEST_F(ExpandDamage, MissingAttributeIsNamed) {
   for (const char* name : {"spectileCoefficients", "spectileMethod", "spectileQuantity", "spectileBands",
                            "spectileObserver", "spectileLight", "spectileLightSamples"}) {
     test::Picture bad = good_;
-    bad.header.erase(name);
+    remove(bad.header, name);
     expect_refused(bad, std::string("attribute ") + name + " is missing or damaged");
   }
 }
@@ -75,7 +83,7 @@ TEST_F(ExpandDamage, AttributeOfAnotherTypeIsNamed) {
   for (const char* name :
        {"spectileCoefficients", "spectileMethod", "spectileBands", "spectileLightSamples"}) {
     test::Picture bad = good_;
-    bad.header.erase(name);
+    remove(bad.header, name);
     bad.header.insert(name, Imf::FloatAttribute(1));
     expect_refused(bad, std::string("attribute ") + name + " is missing or damaged");
   }

@@ -1,0 +1,243 @@
+// spectile spectra: what spectra there are by name, and what one of them, or of a file, looks like.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "src/cli/common.hpp"
+#include "src/cli/method_options.hpp"
+
+namespace spectile::cli {
+namespace {
+
+constexpr int kColumns = 66;
+constexpr int kRows = 16;
+
+struct Arguments {
+  Common common;
+  std::optional<std::string> which;
+  bool csv = false;
+  std::vector<double> at;
+  std::optional<std::size_t> column;
+};
+
+/// A spectrum as a list of samples, and what is known of it.
+struct Shown {
+  std::string name;
+  std::string kind;  ///< of NamedSpectrumInfo, or "formula" or "file"
+  std::string about;
+  std::string source;  ///< empty: none
+  Spectrum spectrum;
+  std::vector<double> wavelengths_nm;  ///< as published, or every nanometre of a formula
+  std::vector<double> values;
+};
+
+/// What could be a light: all but those that are surely something else.
+bool may_be_light(const Shown& s) {
+  return s.kind == "illuminant" || s.kind == "formula" || s.kind == "file";
+}
+
+std::string dumped(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+int list_all(const Arguments& a) {
+  std::string last;
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    if (a.csv) {
+      fmt::print("{}{},\"{}\",\"{}\",\"{}\",{}\n", last.empty() ? "name,kind,about,source,alias\n" : "",
+                 info.name, info.kind, info.about, info.source, info.alias);
+    } else if (a.common.json) {
+      fmt::print(
+          "{}\n",
+          dumped({{"name", info.name}, {"kind", info.kind}, {"about", info.about}, {"source", info.source}}));
+    } else if (!a.common.quiet) {
+      if (info.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", info.kind);
+      fmt::print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);
+    }
+    last = info.kind;
+  }
+  if (!a.csv && !a.common.json && !a.common.quiet) {
+    fmt::print("\nformula\n");
+    fmt::print("  {:<28} {}\n", "blackbody:KELVIN", "thermal radiation, 1 at its maximum");
+    fmt::print("  {:<28} {}\n", "daylight:KELVIN", "CIE daylight, 4000 to 25000 K, 100 at 560 nm");
+    fmt::print("  {:<28} {}\n", "constant:VALUE", "the same at every wavelength");
+  }
+  return kOk;
+}
+
+Result<Spectrum> spectrum_of(const Arguments& a) {
+  if (!a.column) return find_spectrum(*a.which);
+  if (named_spectrum(*a.which)) {
+    return Error{ErrorCode::kBadArgument,
+                 fmt::format("\"{}\" is one spectrum by name; --column is for files", *a.which)};
+  }
+  return load_spectrum(*a.which, *a.column);
+}
+
+Shown describe(const Arguments& a, Spectrum spectrum) {
+  Shown out{.name = *a.which,
+            .kind = named_spectrum(*a.which) ? "formula" : "file",
+            .about = spectrum.to_text(),
+            .source = {},
+            .spectrum = std::move(spectrum),
+            .wavelengths_nm = {},
+            .values = {}};
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    const std::string wanted = CLI::detail::to_lower(*a.which);
+    if (CLI::detail::to_lower(info.name) != wanted && CLI::detail::to_lower(info.alias) != wanted) continue;
+    out.name = info.name;
+    out.kind = info.kind;
+    out.about = info.about;
+    out.source = info.source;
+  }
+  if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&out.spectrum.kind())) {
+    out.wavelengths_nm.assign(linear->wavelengths_nm().begin(), linear->wavelengths_nm().end());
+    out.values.assign(linear->values().begin(), linear->values().end());
+  } else if (const auto* const dense = std::get_if<DenselySampledSpectrum>(&out.spectrum.kind())) {
+    for (int nm = dense->first_nm(); nm <= dense->last_nm(); ++nm) out.wavelengths_nm.push_back(nm);
+    out.values.assign(dense->values().begin(), dense->values().end());
+  } else {
+    out.wavelengths_nm = tabulated_nm();
+    out.values = out.spectrum.sample(out.wavelengths_nm);
+  }
+  return out;
+}
+
+/// Chromaticity for the 2 degree observer; nothing where the spectrum gives it no light.
+std::optional<std::array<double, 2>> chromaticity(const Spectrum& light) {
+  std::array<double, 3> xyz{};
+  const char* const observer[] = {"cie1931-x", "cie1931-y", "cie1931-z"};
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    const auto bar = named_spectrum(observer[i]);
+    if (!bar) return std::nullopt;
+    xyz[i] = inner_product(light, *bar);
+  }
+  const double sum = xyz[0] + xyz[1] + xyz[2];
+  if (!(xyz[1] > 0 && std::isfinite(sum))) return std::nullopt;
+  return std::array{xyz[0] / sum, xyz[1] / sum};
+}
+
+struct Facts {
+  double maximum = 0;
+  double maximum_at_nm = 0;
+  double average = 0;  ///< over 400 to 700 nm
+  std::optional<std::array<double, 2>> xy;
+};
+
+Facts facts_of(const Shown& s) {
+  Facts out;
+  const auto top = std::max_element(s.values.begin(), s.values.end());
+  out.maximum = *top;
+  out.maximum_at_nm = s.wavelengths_nm[static_cast<std::size_t>(top - s.values.begin())];
+  out.average = s.spectrum.integral(400, 700) / 300;
+  if (may_be_light(s)) out.xy = chromaticity(s.spectrum);
+  return out;
+}
+
+void print_json(const Shown& s, const Arguments& a) {
+  const Facts facts = facts_of(s);
+  nlohmann::json out = {{"name", s.name},
+                        {"kind", s.kind},
+                        {"about", s.about},
+                        {"first_nm", s.wavelengths_nm.front()},
+                        {"last_nm", s.wavelengths_nm.back()},
+                        {"maximum", facts.maximum},
+                        {"maximum_at_nm", facts.maximum_at_nm},
+                        {"average_400_700_nm", facts.average},
+                        {"wavelengths_nm", s.wavelengths_nm},
+                        {"values", s.values}};
+  if (!s.source.empty()) out["source"] = s.source;
+  if (facts.xy) out["chromaticity"] = *facts.xy;
+  for (const double nm : a.at) out["at"].push_back({{"wavelength_nm", nm}, {"value", s.spectrum(nm)}});
+  fmt::print("{}\n", dumped(out));
+}
+
+void print_csv(const Shown& s, const Arguments& a) {
+  fmt::print("wavelength_nm,value\n");
+  for (const double nm : a.at) fmt::print("{},{}\n", nm, s.spectrum(nm));
+  if (!a.at.empty()) return;
+  for (std::size_t i = 0; i < s.values.size(); ++i) {
+    fmt::print("{},{}\n", s.wavelengths_nm[i], s.values[i]);
+  }
+}
+
+void print_drawing(const Shown& s) {
+  const double first = s.wavelengths_nm.front();
+  const double width = (s.wavelengths_nm.back() - first) / kColumns;
+  std::vector<double> columns;
+  for (int i = 0; i < kColumns; ++i) {
+    columns.push_back(s.spectrum.integral(first + i * width, first + (i + 1) * width) / width);
+  }
+  for (const std::string& line : plot_columns(columns, kRows, first, s.wavelengths_nm.back())) {
+    fmt::print("{}\n", line);
+  }
+}
+
+void print_text(const Shown& s, const Arguments& a) {
+  fmt::print("{}: {}, {}{}\n", s.name, s.kind, s.about, s.source.empty() ? "" : " (" + s.source + ")");
+  if (!a.at.empty()) {
+    for (const double nm : a.at) fmt::print("  {:.10g} nm  {:.10g}\n", nm, s.spectrum(nm));
+    return;
+  }
+  print_drawing(s);
+  const Facts facts = facts_of(s);
+  fmt::print("{:.6g} to {:.6g} nm, {} {}\n", s.wavelengths_nm.front(), s.wavelengths_nm.back(),
+             s.values.size(), s.kind == "formula" ? "values drawn" : "samples");
+  fmt::print("maximum {:.6g} at {:.6g} nm, average over 400 to 700 nm {:.6g}\n", facts.maximum,
+             facts.maximum_at_nm, facts.average);
+  if (facts.xy) {
+    fmt::print("chromaticity {}x {:.4f}, y {:.4f} (2 degree observer)\n",
+               s.kind == "file" ? "as a light " : "", (*facts.xy)[0], (*facts.xy)[1]);
+  }
+}
+
+int run(const Arguments& a) {
+  if (const int bad = apply_common(a.common)) return bad;
+  if (!a.which) return list_all(a);
+  auto spectrum = spectrum_of(a);
+  if (!spectrum) return complain(spectrum.error());
+  const Shown shown = describe(a, *std::move(spectrum));
+  if (a.csv) {
+    print_csv(shown, a);
+  } else if (a.common.json) {
+    print_json(shown, a);
+  } else if (!a.common.quiet) {
+    print_text(shown, a);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_spectra(CLI::App& app, int& exit) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("spectra", "List the spectra known by name, or show one");
+  command->add_option(
+      "SPECTRUM", a->which,
+      "A name of the list, blackbody:KELVIN, daylight:KELVIN, constant:VALUE, or a file: CSV, "
+      "two columns, or CGATS (.sp, .cmf)");
+  CLI::Option* const csv = command->add_flag("--csv", a->csv, "Print lines of comma-separated values only");
+  command->add_option("--at", a->at, "Print the value at this wavelength in nm; may be given several times")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        double nm = 0;
+        const bool good = CLI::detail::lexical_cast(text, nm) && std::isfinite(nm);
+        return good ? std::string() : text + " is not a wavelength";
+      });
+  command->add_option("--column", a->column, "Data row of a CGATS file that has several, from 0")
+      ->check(CLI::NonNegativeNumber);
+  add_common(*command, a->common);
+  csv->excludes("--json");
+  command->callback([a, &exit] {
+    if (!a->which && (!a->at.empty() || a->column)) {
+      throw CLI::RequiredError("SPECTRUM, of which --at or --column asks,");
+    }
+    exit = run(*a);
+  });
+}
+
+}  // namespace spectile::cli
