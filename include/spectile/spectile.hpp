@@ -17,6 +17,7 @@
 #include <spectile/result.hpp>
 #include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
+#include <spectile/sensor.hpp>
 #include <spectile/spectral_texture.hpp>
 #include <spectile/spectrum.hpp>
 #include <spectile/units.hpp>

@@ -242,6 +242,10 @@ class Spectrum : public SpectrumOperations<Spectrum> {
 double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFirstVisibleNm,
                      double last_nm = kLastVisibleNm);
 
+/// The same of three spectra: a sensor's curve, a light, a reflectance.
+double inner_product(const Spectrum& a, const Spectrum& b, const Spectrum& c,
+                     double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm);
+
 /// A reflectance between 0 and 1 for an RGB colour between 0 and 1, by an upsampler of reflectances.
 /// Errors: kBadArgument for an upsampler of another quantity, and as UpsampledSpectrum::from_rgb.
 Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb);

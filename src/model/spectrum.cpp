@@ -41,13 +41,36 @@ bool is_linear(const Spectrum::Kind& kind) {
          !std::holds_alternative<GaussianSumSpectrum>(kind);
 }
 
-/// Simpson's rule from points inside [a, b], so that steps at the ends do not count: exact for parabolas.
+/// Gauss's rule of two points inside [a, b], so that steps at the ends do not count: exact up to the third
+/// power, the product of three straight lines.
 template <class Function>
-double of_parabola(const Function& f, double a, double b) {
-  // The open rule of two points is exact up to the third power.
+double of_cubic(const Function& f, double a, double b) {
   const double offset = 0.5 * (b - a) / std::sqrt(3.0);
   const double middle = 0.5 * (a + b);
   return 0.5 * (b - a) * (f(middle - offset) + f(middle + offset));
+}
+
+/// Integral of a product of spectra, piece by piece between all their breaks.
+template <class Product>
+double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_nm, double last_nm,
+                   const Product& product) {
+  if (!(last_nm > first_nm)) return 0;
+  std::vector<double> breaks = {first_nm};
+  bool exact = true;
+  for (const Spectrum* s : spectra) {
+    std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, s->kind());
+    exact = exact && is_linear(s->kind());
+  }
+  breaks.push_back(last_nm);
+  std::sort(breaks.begin(), breaks.end());
+  double sum = 0;
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
+    const double to = std::clamp(breaks[i], first_nm, last_nm);
+    if (!(to > from)) continue;
+    sum += exact ? of_cubic(product, from, to) : quadrature::adaptive(product, from, to, 1e-10);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -69,27 +92,16 @@ std::string Spectrum::to_text() const {
 }
 
 double inner_product(const Spectrum& a, const Spectrum& b, double first_nm, double last_nm) {
-  if (!(last_nm > first_nm)) return 0;
-  std::vector<double> breaks = {first_nm};
-  for (const Spectrum* s : {&a, &b}) {
-    std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, s->kind());
-  }
-  breaks.push_back(last_nm);
-  std::sort(breaks.begin(), breaks.end());
-  const bool exact = is_linear(a.kind()) && is_linear(b.kind());
   return std::visit(
       [&](const auto& f, const auto& g) {
-        const auto product = [&](double nm) { return f(nm) * g(nm); };
-        double sum = 0;
-        for (std::size_t i = 1; i < breaks.size(); ++i) {
-          const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
-          const double to = std::clamp(breaks[i], first_nm, last_nm);
-          if (!(to > from)) continue;
-          sum += exact ? of_parabola(product, from, to) : quadrature::adaptive(product, from, to, 1e-10);
-        }
-        return sum;
+        return over_pieces({&a, &b}, first_nm, last_nm, [&](double nm) { return f(nm) * g(nm); });
       },
       a.kind(), b.kind());
+}
+
+double inner_product(const Spectrum& a, const Spectrum& b, const Spectrum& c, double first_nm,
+                     double last_nm) {
+  return over_pieces({&a, &b, &c}, first_nm, last_nm, [&](double nm) { return a(nm) * b(nm) * c(nm); });
 }
 
 }  // namespace spectile
