@@ -13,9 +13,9 @@ namespace {
 
 using namespace spectile;
 
-constexpr double kTemperature_k = 3000;
-constexpr double kRadius_m = 0.005;
-constexpr double kHeight_m = 1;
+constexpr double kTemperatureK = 3000;
+constexpr double kRadiusM = 0.005;
+constexpr double kHeightM = 1;
 
 int failures = 0;
 
@@ -27,16 +27,16 @@ void check(const char* what, double got, double want, double tolerance) {
 
 /// How much of the lamp the table sees: in closed form and by two quadratures.
 Result<SolidAngle> lamp_from_table() {
-  const DiskEmitter lamp = {.centre_m = {0, 0, kHeight_m}, .normal = {0, 0, -1}, .radius_m = kRadius_m};
+  const DiskEmitter lamp = {.centre_m = {0, 0, kHeightM}, .normal = {0, 0, -1}, .radius_m = kRadiusM};
   const Receiver table = {.position_m = {0, 0, 0}, .normal = {0, 0, 1}};
-  const auto exact = projected_solid_angle(lamp, table);
+  auto exact = projected_solid_angle(lamp, table);
   const auto over_area = projected_solid_angle_by_area(lamp, table, 10'000);
   const auto over_directions = projected_solid_angle_by_directions(lamp, table, 250'000);
   if (!exact) return exact.error();
   if (!over_area) return over_area.error();
   if (!over_directions) return over_directions.error();
-  const double r2 = kRadius_m * kRadius_m;
-  check("pi r^2 / (r^2 + h^2), sr", exact->value(), std::numbers::pi * r2 / (r2 + kHeight_m * kHeight_m),
+  const double r2 = kRadiusM * kRadiusM;
+  check("pi r^2 / (r^2 + h^2), sr", exact->value(), std::numbers::pi * r2 / (r2 + kHeightM * kHeightM),
         1e-12);
   check("over the lamp's area, sr", over_area->value(), exact->value(), 1e-6);
   check("over directions, sr", over_directions->value(), exact->value(), 1e-3);
@@ -95,13 +95,13 @@ Result<void> show_cards(const Spectrum& radiance, SolidAngle lamp) {
 }  // namespace
 
 int main() {
-  const auto lamp = BlackbodySpectrum::create(kTemperature_k);
+  const auto lamp = BlackbodySpectrum::create(kTemperatureK);
   if (!lamp) return 1;
-  std::printf("A black body disk of %g K, radius %g m, %g m above a table\n\n", kTemperature_k, kRadius_m,
-              kHeight_m);
+  std::printf("A black body disk of %g K, radius %g m, %g m above a table\n\n", kTemperatureK, kRadiusM,
+              kHeightM);
   const auto seen = lamp_from_table();
   if (!seen) {
-    std::fprintf(stderr, "%s\n", seen.error().message.c_str());
+    std::puts(seen.error().message.c_str());
     return 1;
   }
   std::printf("\n  wavelength   spectral irradiance\n");
@@ -109,11 +109,11 @@ int main() {
     const SpectralIrradiance irradiance = SpectralRadiance((*lamp)(nm)) * *seen;
     std::printf("  %6g nm    %s\n", nm, to_text(irradiance).c_str());
   }
-  const Irradiance all = blackbody_radiance(kTemperature_k) * *seen;
+  const Irradiance all = blackbody_radiance(kTemperatureK) * *seen;
   const Illuminance lux = luminance(*lamp) * *seen;
   std::printf("\n  all wavelengths %s, illuminance %s\n", to_text(all).c_str(), to_text(lux).c_str());
   if (const auto done = show_cards(*lamp, *seen); !done) {
-    std::fprintf(stderr, "%s\n", done.error().message.c_str());
+    std::puts(done.error().message.c_str());
     return 1;
   }
   const auto efficacy = luminous_efficacy(*lamp);

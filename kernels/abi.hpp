@@ -82,6 +82,13 @@ struct KnotTable {
   bool held = false;  ///< beyond the ends: their values rather than 0
 };
 
+/// Planck's law with wavelengths in units of 1024 nm: factor * l^-5 / (2^(exponent / l) - 1).
+struct PlanckTable {
+  float factor = 0;
+  float exponent = 0;  ///< rounded, and what that left
+  float exponent_rest = 0;
+};
+
 /// One lobe of a sum of Gaussians: its amplitude, its mean, and 1 / sigma on both sides. Units: nm.
 struct GaussianLobe {
   double amplitude, mean_nm, per_sigma_left, per_sigma_right;
@@ -168,7 +175,7 @@ struct KernelTable {
   void (*smits_fold)(float* const dst[3], const float* const rgb[3], const float* table,
                      std::size_t n) noexcept;
 
-  // Sigmoid spectra. These alone use fused multiply-adds, written below as fma: one rounding, the same bits
+  // Sigmoid spectra. These, and planck, alone use fused multiply-adds, written below as fma: one rounding, the same bits
   // everywhere. With x = fma(fma(c0, lambda, c1), lambda, c2) and r half the inverse square root of
   // fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24 up to
   // x = 2^62, 3.1 * 2^-24 beyond):
@@ -207,9 +214,10 @@ struct KernelTable {
   /// value[i] + ((lambda - knot[i]) * slope[i]) for the last knot i at or below lambda; outside the knots 0, or
   /// where the table is held, the value at the nearer end
   void (*look_up_knots)(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept;
-  /// (factor / lambda^5) / (2^(exponent / lambda) - 1), in double, rounded once; 0 where lambda is not above 0
-  void (*planck)(float* dst, const float* lambda_nm, double factor, double exponent_nm,
-                 std::size_t n) noexcept;
+  /// l = lambda / 1024, i = 1 / l, x = exponent * i with its rounding error and the rest kept, n the integer
+  /// nearest to x, q = 2^(x - n) - 1 by its series: (factor / (l^5 * (q + (1 - 2^-n)))) * 2^-n, with fused
+  /// multiply-adds for x and the series; within 6 u. 0 where lambda is not above 0 and where x is 252 or more.
+  void (*planck)(float* dst, const float* lambda_nm, const PlanckTable& table, std::size_t n) noexcept;
   /// sum of amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, lobe by lobe, in double, rounded once
   void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
                     std::size_t n) noexcept;

@@ -31,6 +31,17 @@ inline constexpr std::size_t kAtanhTerms = 9;
 inline constexpr double kAtanhSeries[kAtanhTerms] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0, 1.0 / 9.0,
                                                      1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0};
 
+// The same in float. 1.5 * 2^23 rounds magnitudes below 2^22 to the nearest integer; the series of (e^t - 1 - t)
+// / t^2 up to t^5 leaves a quarter of a rounding of e^t - 1 for |t| <= ln(2)/2.
+inline constexpr float kRoundMagicFloat = 12582912.0F;
+inline constexpr float kLn2Float = 0.693147181F;
+inline constexpr std::size_t kPlanckTerms = 6;
+inline constexpr float kPlanckSeries[kPlanckTerms] = {1.0F / 2,   1.0F / 6,   1.0F / 24,
+                                                      1.0F / 120, 1.0F / 720, 1.0F / 5040};
+// Exponents from here on give 0: 2^-252 is below every float, whatever finite factor it has.
+inline constexpr float kPlanckLimit = 252.0F;
+inline constexpr float kPlanckUnit = 1024.0F;  // nm
+
 /// What an exponent y means for the special values of the base, as C's pow defines them (C17 7.12.7.4,
 /// F.10.4.4).
 struct PowExponent {

@@ -71,20 +71,39 @@ inline F32 in_double(F32 v, Function f) noexcept {
   return narrow(f(widen_low(v)), f(widen_high(v)));
 }
 
-void planck(float* dst, const float* lambda_nm, double factor, double exponent_nm, std::size_t n) noexcept {
+/// 2^-n for whole n from 0 to 126.
+inline F32 two_to_minus(I32 n) noexcept {
+  return bits_as<float>((I32(127) - n) << 23);
+}
+
+void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::size_t n) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
+  const F32 magic(kRoundMagicFloat);
+  const F32 exponent(table.exponent);
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
-    const Mask positive = lambda > zero;
-    const F32 value = in_double(xsimd::select(positive, lambda, one), [&](F64 l) {
-      const F64 power = ((l * l) * (l * l)) * l;
-      const F64 e = exp2_double(hold(F64(exponent_nm) / l, kExponentLimit));
-      return (F64(factor) / power) / (e - F64(1.0));
-    });
-    // An infinite wavelength would be 0 / 0.
-    const Mask finite = lambda - lambda == zero;
-    store(dst + i, or_nan(lambda, xsimd::select(positive & finite, value, zero)));
+    const Mask good = (lambda > zero) & (lambda - lambda == zero);
+    const F32 l = xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit);
+    const F32 inverse = one / l;
+    const F32 x = exponent * inverse;
+    const Mask live = good & (x < F32(kPlanckLimit));
+    const F32 near = xsimd::select(live, x, zero);
+    // What the rounded product misses the quotient by.
+    const F32 rest = (fused_minus(near, l, exponent) + F32(table.exponent_rest)) * inverse;
+    const F32 whole = (near + magic) - magic;
+    const F32 t = ((near - whole) + xsimd::select(live, rest, zero)) * F32(kLn2Float);
+    F32 p(kPlanckSeries[kPlanckTerms - 1]);
+    for (std::size_t k = kPlanckTerms - 1; k-- > 0;) p = fused(p, t, F32(kPlanckSeries[k]));
+    const F32 q = fused(p, t * t, t);
+    const I32 power = xsimd::to_int(whole);
+    const I32 half = power >> 1;
+    const F32 first = two_to_minus(half);
+    const F32 second = two_to_minus(power - half);
+    const F32 square = l * l;
+    const F32 divisor = ((square * square) * l) * (q + (one - first * second));
+    const F32 value = ((F32(table.factor) / divisor) * first) * second;
+    store(dst + i, or_nan(lambda, xsimd::select(live, value, zero)));
   }
 }
 

@@ -86,7 +86,8 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<cons
 ///
 /// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4 u
 /// (u = 2^-24) of the larger neighbour in magnitude, for wavelengths and knots rounded to float; black bodies
-/// and Gaussians within 1 u of the sum of the lobes' magnitudes; sigmoids as upsampled.
+/// within 6 u from 0.1 to 10^7 nm (and the least float); Gaussians within 1 u of the sum of the lobes'
+/// magnitudes; sigmoids as upsampled.
 class SpectrumSampler {
  public:
   /// Errors: kOutOfMemory; kBadArgument for samples beyond the range of float.

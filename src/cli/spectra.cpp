@@ -78,12 +78,12 @@ Result<Spectrum> spectrum_of(const Arguments& a) {
   return load_spectrum(*a.which, *a.column);
 }
 
-Shown describe(const Arguments& a, Spectrum spectrum) {
+Shown describe(const Arguments& a, const Spectrum& spectrum) {
   Shown out{.name = *a.which,
             .kind = named_spectrum(*a.which) ? "formula" : "file",
             .about = spectrum.to_text(),
             .source = {},
-            .spectrum = std::move(spectrum),
+            .spectrum = spectrum,
             .wavelengths_nm = {},
             .values = {}};
   for (const NamedSpectrumInfo& info : named_spectra()) {
@@ -169,6 +169,7 @@ void print_drawing(const Shown& s) {
   const double first = s.wavelengths_nm.front();
   const double width = (s.wavelengths_nm.back() - first) / kColumns;
   std::vector<double> columns;
+  columns.reserve(kColumns);
   for (int i = 0; i < kColumns; ++i) {
     columns.push_back(s.spectrum.integral(first + i * width, first + (i + 1) * width) / width);
   }

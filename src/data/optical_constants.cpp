@@ -7,7 +7,7 @@ namespace {
 
 // clang-format off
 // The four metals are tabulated at the same wavelengths.
-constexpr double kMetals_nm[] = {
+constexpr double kMetalsNm[] = {
     298.75705, 302.400421, 306.133759, 309.960449, 313.884003, 317.908142, 322.036835, 326.274139,
     330.624481, 335.092377, 339.682678, 344.400482, 349.251221, 354.240509, 359.37442, 364.659332,
     370.10202, 375.709625, 381.489777, 387.450562, 393.600555, 399.948975, 406.505493, 413.280579,
@@ -97,7 +97,7 @@ constexpr double kCuK[] = {
     4.239563, 4.43, 4.619563, 4.817, 5.034125, 5.26, 5.485625, 5.717,
 };
 
-constexpr double kBK7_nm[] = {
+constexpr double kBK7Nm[] = {
     300.0, 322.0, 344.0, 366.0, 388.0, 410.0,
     432.0, 454.0, 476.0, 498.0, 520.0, 542.0,
     564.0, 586.0, 608.0, 630.0, 652.0, 674.0,
@@ -113,7 +113,7 @@ constexpr double kBK7Eta[] = {
     1.5102389559626, 1.5098401349174, 1.5094591800239, 1.5090939781792, 1.5087426727363,
 };
 
-constexpr double kSF10_nm[] = {
+constexpr double kSF10Nm[] = {
     380.0, 401.0, 422.0, 443.0, 464.0, 486.0,
     507.0, 528.0, 549.0, 570.0, 592.0, 613.0,
     634.0, 655.0, 676.0, 698.0, 719.0, 740.0,
@@ -132,9 +132,9 @@ constexpr double kSF10Eta[] = {
 // clang-format on
 
 constexpr OpticalConstants kMaterials[] = {
-    {"Ag", "silver", kMetals_nm, kAgEta, kAgK},   {"Al", "aluminium", kMetals_nm, kAlEta, kAlK},
-    {"Au", "gold", kMetals_nm, kAuEta, kAuK},     {"Cu", "copper", kMetals_nm, kCuEta, kCuK},
-    {"BK7", "crown glass", kBK7_nm, kBK7Eta, {}}, {"SF10", "flint glass", kSF10_nm, kSF10Eta, {}},
+    {"Ag", "silver", kMetalsNm, kAgEta, kAgK},   {"Al", "aluminium", kMetalsNm, kAlEta, kAlK},
+    {"Au", "gold", kMetalsNm, kAuEta, kAuK},     {"Cu", "copper", kMetalsNm, kCuEta, kCuK},
+    {"BK7", "crown glass", kBK7Nm, kBK7Eta, {}}, {"SF10", "flint glass", kSF10Nm, kSF10Eta, {}},
 };
 
 }  // namespace

@@ -214,8 +214,9 @@ Result<SampleLines> read_cgats(const TextFile& file, std::size_t column) {
   const auto norm = number_of(file, *table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300);
   if (!norm) return norm.error();
   SampleLines out;
-  for (double i = 0; i < *bands; ++i) {
-    out.wavelengths_nm.push_back(*start + (*end - *start) * i / (*bands - 1));
+  const auto count = static_cast<std::size_t>(*bands);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.wavelengths_nm.push_back(*start + (*end - *start) * static_cast<double>(i) / (*bands - 1));
   }
   const auto places = spectral_fields(file, *table, out.wavelengths_nm.size());
   if (!places) return places.error();

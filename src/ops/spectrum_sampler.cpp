@@ -117,8 +117,7 @@ struct SpectrumSampler::Tables {
   float constant = 0;
   Knots knots;  // also the white of a sigmoid's light
   Even even;
-  double planck_factor = 0;
-  double planck_exponent_nm = 0;
+  kernels::PlanckTable planck;
   std::vector<GaussianLobe> lobes;
   std::array<float, 3> c{};
   float lowest_nm = 0;
@@ -142,10 +141,14 @@ struct SpectrumSampler::Tables {
     kind = Kind::kPlanck;
     // From two places: the law's exponent from the temperature, the factor from a value.
     constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;  // h c / k
-    planck_exponent_nm = kSecondRadiationNmK / s.temperature_k() * std::numbers::log2e;
+    constexpr double kUnitNm = 1024;  // of the kernel
+    const double exponent = kSecondRadiationNmK / s.temperature_k() * std::numbers::log2e / kUnitNm;
     const double peak_nm = kSecondRadiationNmK / s.temperature_k() / 4.965114231744276;
-    planck_factor = s(peak_nm) * std::pow(peak_nm, 5) *
-                    std::expm1(kSecondRadiationNmK / (peak_nm * s.temperature_k()));
+    const double factor = s(peak_nm) * std::pow(peak_nm / kUnitNm, 5) *
+                          std::expm1(kSecondRadiationNmK / (peak_nm * s.temperature_k()));
+    planck.factor = static_cast<float>(factor);
+    planck.exponent = static_cast<float>(exponent);
+    planck.exponent_rest = static_cast<float>(exponent - static_cast<double>(planck.exponent));
     return {};
   }
   Result<void> set(const GaussianSumSpectrum& s) {
@@ -185,7 +188,7 @@ struct SpectrumSampler::Tables {
         kernels.look_up_even(out, lambda_nm, even.table, n);
         break;
       case Kind::kPlanck:
-        kernels.planck(out, lambda_nm, planck_factor, planck_exponent_nm, n);
+        kernels.planck(out, lambda_nm, planck, n);
         break;
       case Kind::kGaussians:
         kernels.gaussians(out, lambda_nm, lobes.data(), lobes.size(), n);

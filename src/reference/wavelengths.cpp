@@ -55,17 +55,33 @@ void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, s
   for (std::size_t i = 0; i < n; ++i) dst[i] = value_at(table, lambda_nm[i]);
 }
 
-void planck(float* dst, const float* lambda_nm, double factor, double exponent_nm, std::size_t n) noexcept {
+void planck(float* dst, const float* lambda_nm, const kernels::PlanckTable& table, std::size_t n) noexcept {
+  using namespace kernels;  // the constants' names
   for (std::size_t i = 0; i < n; ++i) {
-    const double l = lambda_nm[i];
-    if (std::isnan(l)) {
-      dst[i] = lambda_nm[i];
-    } else if (!(l > 0) || std::isinf(l)) {
-      dst[i] = 0;
-    } else {
-      const double power = ((l * l) * (l * l)) * l;
-      dst[i] = static_cast<float>((factor / power) / (exp2_double(hold(exponent_nm / l)) - 1.0));
+    const float lambda = lambda_nm[i];
+    if (std::isnan(lambda)) {
+      dst[i] = lambda;
+      continue;
     }
+    dst[i] = 0;
+    if (!(lambda > 0) || std::isinf(lambda)) continue;
+    const float l = lambda * (1.0F / kPlanckUnit);
+    const float inverse = 1.0F / l;
+    const float x = table.exponent * inverse;
+    if (!(x < kPlanckLimit)) continue;
+    const float rest = (std::fma(-x, l, table.exponent) + table.exponent_rest) * inverse;
+    const float whole = (x + kRoundMagicFloat) - kRoundMagicFloat;
+    const float t = ((x - whole) + rest) * kLn2Float;
+    float p = kPlanckSeries[kPlanckTerms - 1];
+    for (std::size_t k = kPlanckTerms - 1; k-- > 0;) p = std::fma(p, t, kPlanckSeries[k]);
+    const float q = std::fma(p, t * t, t);
+    const auto power = static_cast<int>(whole);
+    const int half = power >> 1;
+    const float first = std::ldexp(1.0F, -half);
+    const float second = std::ldexp(1.0F, -(power - half));
+    const float square = l * l;
+    const float divisor = ((square * square) * l) * (q + (1.0F - first * second));
+    dst[i] = ((table.factor / divisor) * first) * second;
   }
 }
 

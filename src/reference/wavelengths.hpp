@@ -9,7 +9,7 @@ void look_up_even(float* dst, const float* lambda_nm, const kernels::EvenTable& 
                   std::size_t n) noexcept;
 void look_up_knots(float* dst, const float* lambda_nm, const kernels::KnotTable& table,
                    std::size_t n) noexcept;
-void planck(float* dst, const float* lambda_nm, double factor, double exponent_nm, std::size_t n) noexcept;
+void planck(float* dst, const float* lambda_nm, const kernels::PlanckTable& table, std::size_t n) noexcept;
 void gaussians(float* dst, const float* lambda_nm, const kernels::GaussianLobe* lobes, std::size_t count,
                std::size_t n) noexcept;
 void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
