@@ -214,9 +214,9 @@ struct KernelTable {
   /// value[i] + ((lambda - knot[i]) * slope[i]) for the last knot i at or below lambda; outside the knots 0, or
   /// where the table is held, the value at the nearer end
   void (*look_up_knots)(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept;
-  /// l = lambda / 1024, i = 1 / l, x = exponent * i with its rounding error and the rest kept, n the integer
-  /// nearest to x, q = 2^(x - n) - 1 by its series: (factor / (l^5 * (q + (1 - 2^-n)))) * 2^-n, with fused
-  /// multiply-adds for x and the series; within 6 u. 0 where lambda is not above 0 and where x is 252 or more.
+  /// l = lambda / 1024, 2^90 at most, i = 1 / l, x = exponent * i with its rounding error and the rest kept, n the integer
+  /// nearest to x, q = 2^(x - n) - 1 by its series: ((factor * 2^-(n / 2)) / (l^5 * (q + (1 - 2^-n)))) * 2^-(n - n / 2), with
+  /// fused multiply-adds for x and the series; within 6 u from 0.1 to 10^7 nm. 0 where lambda is not above 0 and where x is 252 or more.
   void (*planck)(float* dst, const float* lambda_nm, const PlanckTable& table, std::size_t n) noexcept;
   /// sum of amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, lobe by lobe, in double, rounded once
   void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,

@@ -84,7 +84,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const Mask good = (lambda > zero) & (lambda - lambda == zero);
-    const F32 l = xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit);
+    const F32 l = limit_above(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
     const F32 inverse = one / l;
     const F32 x = exponent * inverse;
     const Mask live = good & (x < F32(kPlanckLimit));
@@ -102,7 +102,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
     const F32 second = two_to_minus(power - half);
     const F32 square = l * l;
     const F32 divisor = ((square * square) * l) * (q + (one - first * second));
-    const F32 value = ((F32(table.factor) / divisor) * first) * second;
+    const F32 value = ((F32(table.factor) * first) / divisor) * second;
     store(dst + i, or_nan(lambda, xsimd::select(live, value, zero)));
   }
 }

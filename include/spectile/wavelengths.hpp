@@ -69,7 +69,8 @@ enum class WavelengthSampling {
 /// Draws K wavelengths a lane from one random number each: u, u + 1/K, u + 2/K, ..., less 1 where that reaches
 /// 1, so that the range is covered evenly, through the inverse of the density's distribution.
 /// Shapes: u [lanes], from 0 to 1 (limited to that; NaN gives NaN). Units: nm.
-/// Errors: kSizeMismatch; kBadArgument for a range that is not finite, positive and ascending.
+/// Errors: kSizeMismatch; kBadArgument for a range that does not ascend or is not within 1e-6 to 1e9 nm, and for
+/// kVisible one that holds less than a millionth of the density.
 /// Source of the density: Radziszewski, Boryczko, Alda, An Improved Technique for Full Spectral Rendering,
 /// Journal of WSCG 17, 2009.
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
@@ -90,13 +91,14 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<cons
 /// magnitudes; sigmoids as upsampled.
 class SpectrumSampler {
  public:
-  /// Errors: kOutOfMemory; kBadArgument for samples beyond the range of float.
+  /// Errors: kOutOfMemory; kBadArgument for samples, slopes and ranges beyond that of float.
   static Result<SpectrumSampler> create(const Spectrum& spectrum);
 
   /// Shapes: values [k][lanes], as the wavelengths, in other memory. Errors: kSizeMismatch.
   Result<void> sample(WavelengthView lambda_nm, WavelengthSpan values, const Execution& how = {}) const;
 
  private:
+  SpectrumSampler() = default;
   struct Tables;
   std::shared_ptr<const Tables> tables_;
 };
@@ -118,6 +120,7 @@ class ResponseCurves {
   const float* table() const noexcept { return table_->data(); }
 
  private:
+  ResponseCurves() = default;
   std::shared_ptr<const FloatBuffer> table_;
 };
 
@@ -125,7 +128,8 @@ class ResponseCurves {
 /// radiance_k / density_k. Unbiased for wavelengths drawn with those densities; a terminated wavelength adds
 /// nothing, whatever its radiance.
 /// Shapes: radiance [k][lanes], color three times [lanes].
-/// Numbers: relative error below (K + 6) u of the sum of magnitudes; NaN and infinities go through. Errors:
+/// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at the
+/// nanometres beside the wavelength; NaN and infinities go through. Errors:
 /// kSizeMismatch.
 Result<void> project(const ResponseCurves& curves, WavelengthView radiance, const SampledWavelengths& wavelengths,
                      ColorSpan color, const Execution& how = {});

@@ -53,7 +53,11 @@ int list_all(const Arguments& a) {
     } else if (a.common.json) {
       fmt::print(
           "{}\n",
-          dumped({{"name", info.name}, {"kind", info.kind}, {"about", info.about}, {"source", info.source}}));
+          dumped({{"name", info.name},
+                  {"kind", info.kind},
+                  {"about", info.about},
+                  {"source", info.source},
+                  {"alias", info.alias}}));
     } else if (!a.common.quiet) {
       if (info.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", info.kind);
       fmt::print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);
@@ -230,7 +234,7 @@ void add_spectra(CLI::App& app, int& exit) {
         return good ? std::string() : text + " is not a wavelength";
       });
   command->add_option("--column", a->column, "Data row of a CGATS file that has several, from 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 999999));
   add_common(*command, a->common);
   csv->excludes("--json");
   command->callback([a, &exit] {

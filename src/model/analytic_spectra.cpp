@@ -26,19 +26,21 @@ double planck(double lambda_nm, double temperature_k) {
   return 2 * kPlanck * kLight * kLight / power / std::expm1(x) * kNanometre;
 }
 
-/// Integral of u^3 / (exp(u) - 1) from x to infinity.
+/// Integral of u^3 / (exp(u) - 1) from 0 to x, for x below 1, by Bernoulli's numbers: B_n x^(n + 3) / (n! (n +
+/// 3)).
+double below(double x) {
+  constexpr double kTerms[] = {1.0 / 3,         -1.0 / 8,       1.0 / 60,
+                               -1.0 / 5040,     1.0 / 272160,   -1.0 / 13305600,
+                               1.0 / 622702080, -691.0 / 19615115520000, 1.0 / 1270312243200};
+  const double x2 = x * x;
+  double even = 0;
+  for (int i = 8; i >= 2; --i) even = even * x2 + kTerms[i];
+  return x * x2 * (kTerms[0] + x * kTerms[1] + x2 * even);
+}
+
+/// The same from x to infinity.
 double tail(double x) {
-  if (x < 1) {
-    // What is below x, by Bernoulli's numbers: B_n x^(n + 3) / (n! (n + 3)).
-    constexpr double kTerms[] = {1.0 / 3,          -1.0 / 8,           1.0 / 60,           -1.0 / 5040,
-                                 1.0 / 272160,     -1.0 / 13305600,    1.0 / 622702080,    -691.0 / 19615115520000,
-                                 1.0 / 1270312243200};
-    const double x2 = x * x;
-    double even = 0;
-    for (int i = 8; i >= 2; --i) even = even * x2 + kTerms[i];
-    const double below = x * x2 * (kTerms[0] + x * kTerms[1] + x2 * even);
-    return std::pow(std::numbers::pi, 4) / 15 - below;
-  }
+  if (x < 1) return std::pow(std::numbers::pi, 4) / 15 - below(x);
   double sum = 0;
   for (int n = 1; n < 60; ++n) {
     const double e = std::exp(-n * x);
@@ -84,8 +86,9 @@ double BlackbodySpectrum::integral(double first_nm, double last_nm) const noexce
   const double unit = kPlanck * kLight / (kNanometre * kBoltzmann * temperature_k_);  // nm
   const double whole =
       2 * kPlanck * kLight * kLight * std::pow(kBoltzmann * temperature_k_ / (kPlanck * kLight), 4);
-  const double below = from > 0 ? tail(unit / from) : 0;
-  return factor_ * whole * (tail(unit / last_nm) - below);
+  // Far beyond the peak both tails are nearly the whole.
+  if (unit < from) return factor_ * whole * (below(unit / from) - below(unit / last_nm));
+  return factor_ * whole * (tail(unit / last_nm) - (from > 0 ? tail(unit / from) : 0));
 }
 
 std::string BlackbodySpectrum::to_text() const {
@@ -134,7 +137,8 @@ double GaussianSumSpectrum::max_value() const noexcept {
   for (const Lobe& l : *lobes_) places.push_back(l.mean_nm);
   constexpr double kMostPlaces = 100000;
   const double step = std::max(finest / 8, (last - first) / kMostPlaces);
-  for (double at = first; at <= last; at += step) places.push_back(at);
+  const auto count = static_cast<std::size_t>(std::min(kMostPlaces, (last - first) / step));
+  for (std::size_t i = 0; i <= count; ++i) places.push_back(first + static_cast<double>(i) * step);
   double best = 0;
   for (const double place : places) {
     if (!((*this)(place) >= 0.9 * best)) continue;

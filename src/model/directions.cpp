@@ -35,7 +35,13 @@ Vector3 spherical_direction(double sin_theta, double cos_theta, double phi) noex
 }
 
 double spherical_theta(const Vector3& v) noexcept {
-  return v == Vector3{} ? 0 : std::atan2(std::hypot(v.x, v.y), v.z);
+  if (v == Vector3{}) return 0;
+  // Scaled by a power of two, so that the length of neither part overflows.
+  const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!std::isfinite(most)) return std::atan2(std::hypot(v.x, v.y), v.z);
+  const int exponent = -std::ilogb(most);
+  const auto scaled = [exponent](double x) { return std::scalbn(x, exponent); };
+  return std::atan2(std::hypot(scaled(v.x), scaled(v.y)), scaled(v.z));
 }
 
 double spherical_phi(const Vector3& v) noexcept {
@@ -117,6 +123,11 @@ double solid_angle_of_quad(const Vector3& a, const Vector3& b, const Vector3& c,
 }
 
 double solid_angle_of_rectangle(double x0, double x1, double y0, double y1, double z) noexcept {
+  // In units of the largest number, so that no product of two leaves the range.
+  const double most = std::max({std::abs(x0), std::abs(x1), std::abs(y0), std::abs(y1), std::abs(z)});
+  if (most > 0 && std::isfinite(most)) {
+    for (double* number : {&x0, &x1, &y0, &y1, &z}) *number /= most;
+  }
   const double depth = std::abs(z);
   const auto to_corner = [depth](double x, double y) {
     // Of the rectangle between the foot of the perpendicular and this corner, with the sign of its area.

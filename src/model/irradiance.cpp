@@ -265,10 +265,14 @@ Result<SolidAngle> projected_solid_angle_over_corner(double side_a_m, double sid
                       side_b_m, height_m);
   }
   if (side_a_m == 0 || side_b_m == 0 || height_m == 0) return SolidAngle(0);
-  const double to_a = std::hypot(side_a_m, height_m);
-  const double to_b = std::hypot(side_b_m, height_m);
-  return SolidAngle(
-      (side_a_m / to_a * std::atan2(side_b_m, to_a) + side_b_m / to_b * std::atan2(side_a_m, to_b)) / 2);
+  // In units of the largest, so that no length overflows.
+  const double unit = std::max({side_a_m, side_b_m, height_m});
+  const double a = side_a_m / unit;
+  const double b = side_b_m / unit;
+  const double h = height_m / unit;
+  const double to_a = std::hypot(a, h);
+  const double to_b = std::hypot(b, h);
+  return SolidAngle((a / to_a * std::atan2(b, to_a) + b / to_b * std::atan2(a, to_b)) / 2);
 }
 
 Result<SolidAngle> projected_solid_angle_by_area(const DiskEmitter& emitter, const Receiver& receiver,

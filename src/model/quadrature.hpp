@@ -23,17 +23,17 @@ double ten_points(Function&& f, double a, double b) {
 }
 
 /// Integral of f from a to b: halved until both halves agree with the whole to `tolerance` of their own
-/// magnitude, at most 2^`depth` times.
+/// magnitude or to `negligible`, at most 2^`depth` times.
 template <class Function>
-double adaptive(Function&& f, double a, double b, double tolerance, int depth = 24) {
+double adaptive(Function&& f, double a, double b, double tolerance, double negligible = 0, int depth = 24) {
   const double middle = 0.5 * (a + b);
   const double whole = ten_points(f, a, b);
   const double left = ten_points(f, a, middle);
   const double right = ten_points(f, middle, b);
-  if (depth <= 0 || !(std::abs(left + right - whole) > tolerance * (std::abs(left) + std::abs(right)))) {
-    return left + right;
-  }
-  return adaptive(f, a, middle, tolerance, depth - 1) + adaptive(f, middle, b, tolerance, depth - 1);
+  const double allowed = std::fmax(negligible, tolerance * (std::abs(left) + std::abs(right)));
+  if (depth <= 0 || !(std::abs(left + right - whole) > allowed)) return left + right;
+  return adaptive(f, a, middle, tolerance, negligible, depth - 1) +
+         adaptive(f, middle, b, tolerance, negligible, depth - 1);
 }
 
 }  // namespace spectile::quadrature

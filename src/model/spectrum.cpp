@@ -10,7 +10,12 @@ namespace {
 
 /// Where a distribution is not smooth, or where its mass is: places to start a quadrature from.
 void add_breaks(const ConstantSpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
-void add_breaks(const BlackbodySpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
+void add_breaks(const BlackbodySpectrum& s, std::vector<double>& breaks) {
+  // Octaves about the peak: over a very wide range bisection alone would not find it.
+  constexpr double kWienDisplacementNmK = 2.897771955e6;  // CODATA 2018
+  double nm = kWienDisplacementNmK / s.temperature_k() / 64;
+  for (int octave = 0; octave < 50; ++octave, nm *= 2) breaks.push_back(nm);
+}
 void add_breaks(const PiecewiseLinearSpectrum& s, std::vector<double>& breaks) {
   breaks.insert(breaks.end(), s.wavelengths_nm().begin(), s.wavelengths_nm().end());
 }
@@ -63,14 +68,23 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
   }
   breaks.push_back(last_nm);
   std::sort(breaks.begin(), breaks.end());
-  double sum = 0;
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
-    const double to = std::clamp(breaks[i], first_nm, last_nm);
-    if (!(to > from)) continue;
-    sum += exact ? of_cubic(product, from, to) : quadrature::adaptive(product, from, to, 1e-10);
-  }
-  return sum;
+  const auto sum_of = [&](const auto& piece) {
+    double sum = 0;
+    for (std::size_t i = 1; i < breaks.size(); ++i) {
+      const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
+      const double to = std::clamp(breaks[i], first_nm, last_nm);
+      if (to > from) sum += piece(from, to);
+    }
+    return sum;
+  };
+  if (exact) return sum_of([&](double from, double to) { return of_cubic(product, from, to); });
+  // Pieces that hold next to nothing, a lobe's tails, need no precision of their own.
+  const double size = sum_of([&](double from, double to) {
+    return quadrature::ten_points([&](double nm) { return std::abs(product(nm)); }, from, to);
+  });
+  const double negligible = 1e-12 * size / static_cast<double>(breaks.size());
+  return sum_of(
+      [&](double from, double to) { return quadrature::adaptive(product, from, to, 1e-10, negligible); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace spectile {
 
 double ConstantSpectrum::integral(double first_nm, double last_nm) const noexcept {
-  return last_nm > first_nm ? value_ * (last_nm - first_nm) : 0.0;
+  return last_nm > first_nm && value_ != 0 ? value_ * (last_nm - first_nm) : 0.0;
 }
 
 std::string ConstantSpectrum::to_text() const {
@@ -66,7 +66,7 @@ Result<DenselySampledSpectrum> DenselySampledSpectrum::from(const Spectrum& spec
   std::vector<double> values;
   std::visit(
       [&](const auto& s) {
-        for (int nm = first_nm; nm <= last_nm; ++nm) values.push_back(s(nm));
+        for (std::int64_t i = 0; i <= count; ++i) values.push_back(s(static_cast<double>(first_nm + i)));
       },
       spectrum.kind());
   return from_values(first_nm, std::move(values));
@@ -76,6 +76,10 @@ Result<DenselySampledSpectrum> DenselySampledSpectrum::from_values(int first_nm,
   if (values.size() < 2 || values.size() > kMostNanometres + 1) {
     return make_error(ErrorCode::kBadArgument, "a table at every nanometre takes 2 to {} values, not {}",
                       kMostNanometres + 1, values.size());
+  }
+  if (std::int64_t{first_nm} + static_cast<std::int64_t>(values.size()) - 1 > std::numeric_limits<int>::max()) {
+    return make_error(ErrorCode::kBadArgument, "a table of {} nm from {} nm on is beyond what can be counted",
+                      values.size(), first_nm);
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
@@ -95,7 +99,7 @@ double DenselySampledSpectrum::operator()(double lambda_nm) const noexcept {
   if (!(at >= 0 && at <= static_cast<double>(v.size() - 1))) return std::isnan(at) ? at : 0;
   const std::size_t i = std::min(static_cast<std::size_t>(at), v.size() - 2);
   const double t = at - static_cast<double>(i);
-  return v[i] + t * (v[i + 1] - v[i]);
+  return (1 - t) * v[i] + t * v[i + 1];
 }
 
 double DenselySampledSpectrum::max_value() const noexcept {

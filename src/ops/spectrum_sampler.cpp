@@ -50,8 +50,14 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
   const auto first = static_cast<float>(w.front());
   const auto last = static_cast<float>(w.back());
   const float range = last - first;
-  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides.
-  const float per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
+  if (!std::isfinite(range)) {
+    return make_error(ErrorCode::kBadArgument, "samples from {} to {} nm are too far apart for float", w.front(),
+                      w.back());
+  }
+  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All are
+  // in the first one where they are too close together for more.
+  float per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
+  if (!std::isfinite(per_nm)) per_nm = 0;
   const auto bucket_of = [&](float nm) {
     return static_cast<std::size_t>(std::min(static_cast<float>(buckets - 1), (nm - first) * per_nm));
   };
@@ -75,10 +81,17 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
   std::fill_n(out.knots.data(), out.knots.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < n; ++i) {
     out.knots.data()[i] = static_cast<float>(w[i]);
-    const double length = i + 1 < n ? w[i + 1] - w[i] : 0;
+    // Between the knots as they are in float: two that became one are a step.
+    const double length = i + 1 < n ? static_cast<double>(static_cast<float>(w[i + 1])) -
+                                          static_cast<double>(static_cast<float>(w[i]))
+                                    : 0;
     const double slope = length > 0 ? (v[i + 1] - v[i]) / length : 0;
+    if (!fits_float(slope)) {
+      return make_error(ErrorCode::kBadArgument, "the slope from {} to {} nm is beyond the range of float", w[i],
+                        w[i + 1]);
+    }
     out.pairs.data()[2 * i] = static_cast<float>(v[i]);
-    out.pairs.data()[2 * i + 1] = fits_float(slope) ? static_cast<float>(slope) : 0.0F;
+    out.pairs.data()[2 * i + 1] = static_cast<float>(slope);
   }
   out.table = {out.knots.data(), out.pairs.data(),    static_cast<std::int32_t>(n), out.start.data(),
                per_nm,           static_cast<std::int32_t>(buckets), halvings,     held};
@@ -126,6 +139,9 @@ struct SpectrumSampler::Tables {
   bool white = false;
 
   Result<void> set(const ConstantSpectrum& s) {
+    if (!fits_float(s.value()) && !std::isnan(s.value())) {
+      return make_error(ErrorCode::kBadArgument, "the constant {} is beyond the range of float", s.value());
+    }
     constant = static_cast<float>(s.value());
     return {};
   }
@@ -153,8 +169,13 @@ struct SpectrumSampler::Tables {
   }
   Result<void> set(const GaussianSumSpectrum& s) {
     kind = Kind::kGaussians;
+    // The inverse of a denormal width would be infinite, and its lobe no number at its mean.
+    const auto inverse = [](double sigma) { return std::min(1 / sigma, std::numeric_limits<double>::max()); };
     for (const auto& l : s.lobes()) {
-      lobes.push_back({l.amplitude, l.mean_nm, 1 / l.sigma_left_nm, 1 / l.sigma_right_nm});
+      if (!fits_float(l.amplitude)) {
+        return make_error(ErrorCode::kBadArgument, "the amplitude {} is beyond the range of float", l.amplitude);
+      }
+      lobes.push_back({l.amplitude, l.mean_nm, inverse(l.sigma_left_nm), inverse(l.sigma_right_nm)});
     }
     return {};
   }

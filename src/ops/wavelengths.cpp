@@ -77,13 +77,18 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
                                 double first_nm, double last_nm, const Execution& how) {
   SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
   SPECTILE_TRY(shape::aligned(u.data));
-  if (!(first_nm > 0 && last_nm > first_nm && last_nm < 1e9)) {
+  if (!(first_nm >= 1e-6 && last_nm - first_nm >= 1e-6 && last_nm <= 1e9)) {
     return make_error(ErrorCode::kBadArgument, "wavelengths cannot be drawn from {} to {} nm", first_nm,
                       last_nm);
   }
   const auto table = dispatch::active();
   if (!table) return table.error();
   const WavelengthDensity density = density_over(first_nm, last_nm);
+  constexpr double kLeastShare = 1e-6;  // less would be lost in the differences of the inverse
+  if (sampling == WavelengthSampling::kVisible && !(density.by > 2 * kLeastShare)) {
+    return make_error(ErrorCode::kBadArgument, "{} to {} nm hold next to nothing of the eye's sensitivity", first_nm,
+                      last_nm);
+  }
   const auto kernel = sampling == WavelengthSampling::kUniform ? (*table)->even_wavelengths
                                                                : (*table)->visible_wavelengths;
   const WavelengthSpan lambda = out.lambda_nm.span();

@@ -65,7 +65,7 @@ void planck(float* dst, const float* lambda_nm, const kernels::PlanckTable& tabl
     }
     dst[i] = 0;
     if (!(lambda > 0) || std::isinf(lambda)) continue;
-    const float l = lambda * (1.0F / kPlanckUnit);
+    const float l = std::min(kPlanckLongest, lambda * (1.0F / kPlanckUnit));
     const float inverse = 1.0F / l;
     const float x = table.exponent * inverse;
     if (!(x < kPlanckLimit)) continue;
@@ -81,7 +81,7 @@ void planck(float* dst, const float* lambda_nm, const kernels::PlanckTable& tabl
     const float second = std::ldexp(1.0F, -(power - half));
     const float square = l * l;
     const float divisor = ((square * square) * l) * (q + (1.0F - first * second));
-    dst[i] = ((table.factor / divisor) * first) * second;
+    dst[i] = ((table.factor * first) / divisor) * second;
   }
 }
 
