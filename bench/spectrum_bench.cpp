@@ -27,8 +27,9 @@ struct Bench {
   Spectrum measured = PiecewiseLinearSpectrum(need(illuminant("FL11")));
   Upsampler upsampler = need(Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands()));
   Spectrum sigmoid = need(rgb_albedo_spectrum(upsampler, {0.7, 0.3, 0.1}));
-  SpectrumSampler samplers[4] = {need(SpectrumSampler::create(dense)), need(SpectrumSampler::create(measured)),
-                                 need(SpectrumSampler::create(black)), need(SpectrumSampler::create(sigmoid))};
+  SpectrumSampler samplers[4] = {
+      need(SpectrumSampler::create(dense)), need(SpectrumSampler::create(measured)),
+      need(SpectrumSampler::create(black)), need(SpectrumSampler::create(sigmoid))};
   textbook::Dense text_dense;
   textbook::PiecewiseLinear text_measured;
   textbook::Blackbody text_black{static_cast<float>(kTemperatureK)};
@@ -54,7 +55,8 @@ struct Bench {
     text_dense.first_nm = table.first_nm();
     for (const double v : table.values()) text_dense.values.push_back(static_cast<float>(v));
     const auto& knots = std::get<PiecewiseLinearSpectrum>(measured.kind());
-    for (const double nm : knots.wavelengths_nm()) text_measured.wavelengths_nm.push_back(static_cast<float>(nm));
+    for (const double nm : knots.wavelengths_nm())
+      text_measured.wavelengths_nm.push_back(static_cast<float>(nm));
     for (const double v : knots.values()) text_measured.values.push_back(static_cast<float>(v));
     std::copy_n(std::get<UpsampledSpectrum>(sigmoid.kind()).coefficients().begin(), 3, text_sigmoid.c);
   }
@@ -123,8 +125,8 @@ void add(std::vector<Line>& lines, const std::string& name) {
   lines.push_back({"textbook " + name + ", 4", 4 * n, 4 * n * 8, run_textbook<kKind, 4>, nullptr, "", false});
   lines.push_back({name + ", 4", 4 * n, 4 * n * 8, run_batch<kKind, 4>, error_of_batch<kKind, 4>,
                    "textbook " + name + ", 4", false, 4});
-  lines.push_back(
-      {"textbook " + name + ", 8", 8 * n, 8 * n * 8, run_textbook<kKind, 8>, error_of_textbook<kKind>, "", false});
+  lines.push_back({"textbook " + name + ", 8", 8 * n, 8 * n * 8, run_textbook<kKind, 8>,
+                   error_of_textbook<kKind>, "", false});
   lines.push_back({name + ", 8", 8 * n, 8 * n * 8, run_batch<kKind, 8>, error_of_batch<kKind, 8>,
                    "textbook " + name + ", 8", false, 4});
 }
@@ -137,12 +139,16 @@ std::vector<Line> lines() {
   add<3>(out, "sigmoid");
   const auto n = static_cast<double>(kLanes);
   out.push_back({"draw 4 uniform", n, n * 36,
-                 [] { need(sample_wavelengths(WavelengthSampling::kUniform, bench().u.view(), bench().four, 360,
-                                              830, kOneThread)); },
+                 [] {
+                   need(sample_wavelengths(WavelengthSampling::kUniform, bench().u.view(), bench().four, 360,
+                                           830, kOneThread));
+                 },
                  nullptr, "", false});
   out.push_back({"draw 4 visible", n, n * 36,
-                 [] { need(sample_wavelengths(WavelengthSampling::kVisible, bench().u.view(), bench().four, 360,
-                                              830, kOneThread)); },
+                 [] {
+                   need(sample_wavelengths(WavelengthSampling::kVisible, bench().u.view(), bench().four, 360,
+                                           830, kOneThread));
+                 },
                  nullptr, "", false});
   out.push_back({"project 4 to XYZ", n, n * 60,
                  [] {
@@ -157,8 +163,9 @@ std::vector<Line> lines() {
 
 int main(int argc, char** argv) {
   bench();
-  return report::run(argc, argv, lines(),
-                     fmt::format("one thread, kernels {}, {} lanes of 4 or 8 random wavelengths; an item is a "
-                                 "look-up, or a lane",
-                                 need(active_isa()), kLanes));
+  return report::run(
+      argc, argv, lines(),
+      fmt::format("one thread, kernels {}, {} lanes of 4 or 8 random wavelengths; an item is a "
+                  "look-up, or a lane",
+                  need(active_isa()), kLanes));
 }

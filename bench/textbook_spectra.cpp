@@ -17,7 +17,8 @@ float Dense::operator()(float lambda_nm) const {
 float PiecewiseLinear::operator()(float lambda_nm) const {
   if (lambda_nm < wavelengths_nm.front() || lambda_nm > wavelengths_nm.back()) return 0;
   const auto above = std::upper_bound(wavelengths_nm.begin(), wavelengths_nm.end(), lambda_nm);
-  const auto i = std::min(static_cast<std::size_t>(above - wavelengths_nm.begin()), wavelengths_nm.size() - 1);
+  const auto i =
+      std::min(static_cast<std::size_t>(above - wavelengths_nm.begin()), wavelengths_nm.size() - 1);
   const float t = (lambda_nm - wavelengths_nm[i - 1]) / (wavelengths_nm[i] - wavelengths_nm[i - 1]);
   return (1 - t) * values[i - 1] + t * values[i];
 }

@@ -94,8 +94,8 @@ struct GaussianLobe {
   double amplitude, mean_nm, per_sigma_left, per_sigma_right;
 };
 
-/// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's sensitivity
-/// tanh(steepness * (lambda - centre)).
+/// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's
+/// sensitivity tanh(steepness * (lambda - centre)).
 struct WavelengthDensity {
   float first_nm, range_nm;
   double centre_nm, per_steepness_nm;  ///< visible: 1 / steepness
@@ -175,22 +175,22 @@ struct KernelTable {
   void (*smits_fold)(float* const dst[3], const float* const rgb[3], const float* table,
                      std::size_t n) noexcept;
 
-  // Sigmoid spectra. These, and planck, alone use fused multiply-adds, written below as fma: one rounding, the same bits
-  // everywhere. With x = fma(fma(c0, lambda, c1), lambda, c2) and r half the inverse square root of
-  // fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24 up to
-  // x = 2^62, 3.1 * 2^-24 beyond):
-  // sample = fma(x, r, 0.5) limited to [0, 1], then times the band's white, then times the lane's scale, each
-  // where there is one. Source: Jakob, Hanika, A Low-Dimensional Function Space for Efficient Spectral
-  // Upsampling, Computer Graphics Forum 38(2), 2019.
+  // Sigmoid spectra. These, and planck, alone use fused multiply-adds, written below as fma: one rounding,
+  // the same bits everywhere. With x = fma(fma(c0, lambda, c1), lambda, c2) and r half the inverse square
+  // root of fma(x, x, 1) (a guess from its bits and two steps, of third and second order, within 2.5 * 2^-24
+  // up to x = 2^62, 3.1 * 2^-24 beyond): sample = fma(x, r, 0.5) limited to [0, 1], then times the band's
+  // white, then times the lane's scale, each where there is one. Source: Jakob, Hanika, A Low-Dimensional
+  // Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38(2), 2019.
   /// coefficients for which the weights' sums over the samples are rgb. Bit i of unsolved[i / kLanes]: none
-  /// come within 1e-5 of it (1 % of the largest component, or 2^-22, for dark ones), or none were found. Greys give c0 = c1 = 0; 0, 0, 0
-  /// and 1, 1, 1 give exactly 0 and 1; a component that is not finite gives NaN. n a multiple of kLanes.
+  /// come within 1e-5 of it (1 % of the largest component, or 2^-22, for dark ones), or none were found.
+  /// Greys give c0 = c1 = 0; 0, 0, 0 and 1, 1, 1 give exactly 0 and 1; a component that is not finite gives
+  /// NaN. n a multiple of kLanes.
   void (*sigmoid_solve)(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
                         std::uint64_t* unsolved, std::size_t n) noexcept;
   /// the same for what sigmoid_solve did not find, step by step along the line from the grey of luminance
-  /// y = ((w0 * r) + (w1 * g)) + (w2 * b): reached = 1 with coefficients for rgb, or the part of the line that
-  /// a sigmoid has, with the coefficients there; 0 with those of black or white where y is not inside (0, 1).
-  /// A component that is not finite gives NaN and 1. n a multiple of kLanes.
+  /// y = ((w0 * r) + (w1 * g)) + (w2 * b): reached = 1 with coefficients for rgb, or the part of the line
+  /// that a sigmoid has, with the coefficients there; 0 with those of black or white where y is not inside
+  /// (0, 1). A component that is not finite gives NaN and 1. n a multiple of kLanes.
   void (*sigmoid_reach)(float* const c[3], float* reached, const float* const rgb[3],
                         const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept;
   /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its
@@ -211,12 +211,13 @@ struct KernelTable {
   /// t = (lambda - first) * per_nm, i = min(int(t), intervals - 1): value[i] + ((t - i) * difference[i]); 0
   /// where t is outside [0, intervals]
   void (*look_up_even)(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept;
-  /// value[i] + ((lambda - knot[i]) * slope[i]) for the last knot i at or below lambda; outside the knots 0, or
-  /// where the table is held, the value at the nearer end
+  /// value[i] + ((lambda - knot[i]) * slope[i]) for the last knot i at or below lambda; outside the knots 0,
+  /// or where the table is held, the value at the nearer end
   void (*look_up_knots)(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept;
-  /// l = lambda / 1024, 2^90 at most, i = 1 / l, x = exponent * i with its rounding error and the rest kept, n the integer
-  /// nearest to x, q = 2^(x - n) - 1 by its series: ((factor * 2^-(n / 2)) / (l^5 * (q + (1 - 2^-n)))) * 2^-(n - n / 2), with
-  /// fused multiply-adds for x and the series; within 6 u from 0.1 to 10^7 nm. 0 where lambda is not above 0 and where x is 252 or more.
+  /// l = lambda / 1024, 2^90 at most, i = 1 / l, x = exponent * i with its rounding error and the rest kept,
+  /// n the integer nearest to x, q = 2^(x - n) - 1 by its series: ((factor * 2^-(n / 2)) / (l^5 * (q + (1 -
+  /// 2^-n)))) * 2^-(n - n / 2), with fused multiply-adds for x and the series; within 6 u from 0.1 to 10^7
+  /// nm. 0 where lambda is not above 0 and where x is 252 or more.
   void (*planck)(float* dst, const float* lambda_nm, const PlanckTable& table, std::size_t n) noexcept;
   /// sum of amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, lobe by lobe, in double, rounded once
   void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
@@ -243,7 +244,8 @@ struct KernelTable {
   // Gamut.
   /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance
   /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others
-  /// and those with a component that is not finite stay as they are. Bit i of moved[i / kLanes]: it was outside.
+  /// and those with a component that is not finite stay as they are. Bit i of moved[i / kLanes]: it was
+  /// outside.
   void (*limit_gamut)(float* const rgb[3], const float weights[3], float lowest, float highest,
                       std::uint64_t* moved, std::size_t n) noexcept;
 

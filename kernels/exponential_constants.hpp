@@ -31,8 +31,8 @@ inline constexpr std::size_t kAtanhTerms = 9;
 inline constexpr double kAtanhSeries[kAtanhTerms] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0, 1.0 / 9.0,
                                                      1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0};
 
-// The same in float. 1.5 * 2^23 rounds magnitudes below 2^22 to the nearest integer; the series of (e^t - 1 - t)
-// / t^2 up to t^5 leaves a quarter of a rounding of e^t - 1 for |t| <= ln(2)/2.
+// The same in float. 1.5 * 2^23 rounds magnitudes below 2^22 to the nearest integer; the series of (e^t - 1 -
+// t) / t^2 up to t^5 leaves a quarter of a rounding of e^t - 1 for |t| <= ln(2)/2.
 inline constexpr float kRoundMagicFloat = 12582912.0F;
 inline constexpr float kLn2Float = 0.693147181F;
 inline constexpr std::size_t kPlanckTerms = 6;

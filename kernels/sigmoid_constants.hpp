@@ -21,10 +21,10 @@ inline constexpr float kRootThird = 1.19055079F;
 inline constexpr float kSigmoidBlack = 0x1p-25F;
 /// A residual below this is as good as the samples' rounding lets it be.
 inline constexpr float kSigmoidFloor = 0x1p-25F;
-/// Colours darker than this whose first step does not suffice are searched from above: four times as bright as
-/// often as it takes to reach it, then down again, a quarter at a time. Towards black a sigmoid is a quarter of
-/// the inverse square of its polynomial, so twice the coefficients are a start for a quarter of the colour,
-/// even for dark purples, whose spectra rise at both ends.
+/// Colours darker than this whose first step does not suffice are searched from above: four times as bright
+/// as often as it takes to reach it, then down again, a quarter at a time. Towards black a sigmoid is a
+/// quarter of the inverse square of its polynomial, so twice the coefficients are a start for a quarter of
+/// the colour, even for dark purples, whose spectra rise at both ends.
 inline constexpr float kSigmoidLit = 0x1p-6F;
 inline constexpr int kSigmoidLevels = 10;
 /// A step is the last where the residual times the step's length is below this part of the colour's largest
@@ -35,8 +35,8 @@ inline constexpr float kSigmoidDark = 0.05F;
 /// Steps count as good, and the first one is taken, only from this near; the first relative to the largest
 /// component.
 inline constexpr float kSigmoidNear = 0.05F;
-/// A colour whose residual stays above this, or above this part of its largest component, has no coefficients;
-/// the third is what rounding may leave of colours so dark that their part is less.
+/// A colour whose residual stays above this, or above this part of its largest component, has no
+/// coefficients; the third is what rounding may leave of colours so dark that their part is less.
 inline constexpr float kSigmoidUnsolved = 1e-5F;
 inline constexpr float kSigmoidMet = 0.01F;
 inline constexpr float kSigmoidRounding = 0x1p-22F;

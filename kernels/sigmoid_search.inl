@@ -142,8 +142,8 @@ struct Search {
   F32 steps;  // evaluations at most
 };
 
-/// Steps from coefficients for the brightened colours to those of the targets. A lane that is done stays as it
-/// is, so that no lane depends on its neighbours.
+/// Steps from coefficients for the brightened colours to those of the targets. A lane that is done stays as
+/// it is, so that no lane depends on its neighbours.
 inline void refine(Coefficients& a, const Search& search, const SigmoidTable& table) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);

@@ -84,7 +84,8 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const Mask good = (lambda > zero) & (lambda - lambda == zero);
-    const F32 l = limit_above(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
+    const F32 l =
+        limit_above(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
     const F32 inverse = one / l;
     const F32 x = exponent * inverse;
     const Mask live = good & (x < F32(kPlanckLimit));
@@ -117,8 +118,8 @@ void gaussians(float* dst, const float* lambda_nm, const GaussianLobe* lobes, st
             for (std::size_t k = 0; k < count; ++k) {
               const GaussianLobe& lobe = lobes[k];
               const F64 from_mean = l - F64(lobe.mean_nm);
-              const F64 per_sigma = xsimd::select(from_mean < F64(0.0), F64(lobe.per_sigma_left),
-                                                  F64(lobe.per_sigma_right));
+              const F64 per_sigma =
+                  xsimd::select(from_mean < F64(0.0), F64(lobe.per_sigma_left), F64(lobe.per_sigma_right));
               const F64 z = from_mean * per_sigma;
               sum = sum + F64(lobe.amplitude) * exp2_double(hold((z * z) * to_exponent, kExponentLimit));
             }

@@ -48,8 +48,8 @@ struct QuadEmitter {
 /// Of a disk whose plane is parallel to the receiver's: pi r^2 / (r^2 + h^2) on its axis; anywhere else too.
 /// Errors: also kBadArgument where the planes are not parallel to within 1e-9 rad. Relative error below
 /// 1e-14, also for small disks far away, plus what rounding the normals leaves of the height: 1e-16 of the
-/// distance, which counts where the disk is next to the receiver's own plane. Source: Foote, Illumination from a Radiating Disk, Scientific Papers
-/// of the Bureau of Standards 12, 1915.
+/// distance, which counts where the disk is next to the receiver's own plane. Source: Foote, Illumination
+/// from a Radiating Disk, Scientific Papers of the Bureau of Standards 12, 1915.
 Result<SolidAngle> projected_solid_angle(const DiskEmitter& emitter, const Receiver& receiver);
 
 /// Of a parallelogram, at any angle. Absolute error below 1e-14. Source: as for the polygon.

@@ -1,4 +1,5 @@
-// Representations of light and materials with one interface: sampled over bands, or as three RGB coefficients.
+// Representations of light and materials with one interface: sampled over bands, or as three RGB
+// coefficients.
 #pragma once
 
 #include <memory>
@@ -10,12 +11,13 @@
 namespace spectile {
 
 // Code written once as a template over the representation runs on either: it makes batches with constant(),
-// light(), reflectance() and their *_from_rgb(), computes on them with the operations of arithmetic.hpp, which
-// take both, and looks at the result with to_xyz(), to_rgb() and luminance().
+// light(), reflectance() and their *_from_rgb(), computes on them with the operations of arithmetic.hpp,
+// which take both, and looks at the result with to_xyz(), to_rgb() and luminance().
 //
-// Light and what reaches the eye are relative to luminance 1 of a spectrum that is 1 everywhere; RGB is linear
-// sRGB, whose 1, 1, 1 is, for a reflectance, the white reflector under D65 and, for light, D65 with Y = 1.
-// Errors common to both: kBandsMismatch for a batch of another representation, kSizeMismatch, kOutOfMemory.
+// Light and what reaches the eye are relative to luminance 1 of a spectrum that is 1 everywhere; RGB is
+// linear sRGB, whose 1, 1, 1 is, for a reflectance, the white reflector under D65 and, for light, D65 with Y
+// = 1. Errors common to both: kBandsMismatch for a batch of another representation, kSizeMismatch,
+// kOutOfMemory.
 
 /// Spectra sampled over bands.
 class SampledRepresentation {
@@ -43,8 +45,8 @@ class SampledRepresentation {
 };
 
 /// Three coefficients a lane: linear sRGB. Products of them are what renderers without spectra compute. Their
-/// batches have three bands that stand for red, green and blue, at 1, 2 and 3 nm: no spectrum has those, so the
-/// two kinds cannot be mixed by mistake.
+/// batches have three bands that stand for red, green and blue, at 1, 2 and 3 nm: no spectrum has those, so
+/// the two kinds cannot be mixed by mistake.
 class RgbRepresentation {
  public:
   /// Errors: none but kOutOfMemory.
@@ -63,10 +65,10 @@ class RgbRepresentation {
 
   /// The conversions to the other representation and back: what a batch of sampled lights looks like as RGB,
   /// and spectra with the colours of a batch of RGB.
-  Result<void> from_sampled(const SampledRepresentation& other, SampledSpectraView light, SampledSpectraSpan out,
-                            const Execution& how = {}) const;
-  Result<void> to_sampled(const SampledRepresentation& other, SampledSpectraView light, SampledSpectraSpan out,
-                          const Execution& how = {}) const;
+  Result<void> from_sampled(const SampledRepresentation& other, SampledSpectraView light,
+                            SampledSpectraSpan out, const Execution& how = {}) const;
+  Result<void> to_sampled(const SampledRepresentation& other, SampledSpectraView light,
+                          SampledSpectraSpan out, const Execution& how = {}) const;
 
  private:
   RgbRepresentation() = default;

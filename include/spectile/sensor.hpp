@@ -8,6 +8,7 @@
 #include <spectile/spectrum.hpp>
 #include <spectile/wavelengths.hpp>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spectile {
@@ -39,8 +40,8 @@ class Sensor {
   Result<ResponseCurves> response_curves() const;
 
  private:
-  Sensor(const std::array<Spectrum, 3>& curves, const std::array<double, 3>& factors)
-      : curves_(curves), factors_(factors) {}
+  Sensor(std::array<Spectrum, 3> curves, const std::array<double, 3>& factors)
+      : curves_(std::move(curves)), factors_(factors) {}
   std::array<Spectrum, 3> curves_;
   std::array<double, 3> factors_;
 };
@@ -71,10 +72,10 @@ Result<void> project(const SensorProjector& projector, SampledSpectraView spectr
 
 /// A matrix from a sensor's RGB to XYZ, and what it misses by.
 struct SensorFit {
-  Matrix3 rgb_to_xyz{};        ///< XYZ relative to the white reflector under the light, Y = 1
-  double mean_ciede2000 = 0;   ///< over the patches
-  double max_ciede2000 = 0;    ///< over the patches
-  double white_ciede2000 = 0;  ///< of the white reflector itself
+  Matrix3 rgb_to_xyz{};         ///< XYZ relative to the white reflector under the light, Y = 1
+  double mean_ciede2000 = 0;    ///< over the patches
+  double max_ciede2000 = 0;     ///< over the patches
+  double white_ciede2000 = 0;   ///< of the white reflector itself
   std::vector<double> patches;  ///< CIEDE2000 of each
 };
 

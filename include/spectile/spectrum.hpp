@@ -14,8 +14,8 @@
 
 namespace spectile {
 
-/// The range over which distributions are tabulated and integrated where none is given. Units: nm. Source: CIE
-/// 015:2018, range of the standard observers.
+/// The range over which distributions are tabulated and integrated where none is given. Units: nm. Source:
+/// CIE 015:2018, range of the standard observers.
 inline constexpr double kFirstVisibleNm = 360;
 inline constexpr double kLastVisibleNm = 830;
 
@@ -59,9 +59,9 @@ class ConstantSpectrum : public SpectrumOperations<ConstantSpectrum> {
   double value_;
 };
 
-/// Linear between samples at irregular wavelengths and 0 outside them: what a lamp emits, a sensor's response.
-/// (A MeasuredSpectrum is the same with constant ends: what averaging a reflectance over bands assumes where
-/// nobody measured.)
+/// Linear between samples at irregular wavelengths and 0 outside them: what a lamp emits, a sensor's
+/// response. (A MeasuredSpectrum is the same with constant ends: what averaging a reflectance over bands
+/// assumes where nobody measured.)
 class PiecewiseLinearSpectrum : public SpectrumOperations<PiecewiseLinearSpectrum> {
  public:
   /// Errors and order as for MeasuredSpectrum::from_samples: sorted, and two samples at one wavelength are a
@@ -133,13 +133,14 @@ class BlackbodySpectrum : public SpectrumOperations<BlackbodySpectrum> {
 
   double temperature_k() const noexcept { return temperature_k_; }
   Scale scale() const noexcept { return scale_; }
-  /// 0 at wavelengths not above 0. From 1e-3 to 1e15 nm the relative error is below 1e-13, or 2^-51 h c / (lambda
-  /// k T) where that is more: far below the peak, where there is next to nothing.
+  /// 0 at wavelengths not above 0. From 1e-3 to 1e15 nm the relative error is below 1e-13, or 2^-51 h c /
+  /// (lambda k T) where that is more: far below the peak, where there is next to nothing.
   double operator()(double lambda_nm) const noexcept;
   /// At the wavelength of Wien's displacement law, visible or not.
   double max_value() const noexcept;
-  /// By series, to a relative 1e-11 within the range of double; `last_nm` may be infinite. Source: Widger, Woodall, Integration of the
-  /// Planck Blackbody Radiation Function, Bulletin of the American Meteorological Society 57(10), 1976.
+  /// By series, to a relative 1e-11 within the range of double; `last_nm` may be infinite. Source: Widger,
+  /// Woodall, Integration of the Planck Blackbody Radiation Function, Bulletin of the American Meteorological
+  /// Society 57(10), 1976.
   double integral(double first_nm, double last_nm) const noexcept;
   std::string to_text() const;
 
@@ -223,8 +224,8 @@ class Spectrum : public SpectrumOperations<Spectrum> {
   using Kind = std::variant<ConstantSpectrum, PiecewiseLinearSpectrum, DenselySampledSpectrum,
                             BlackbodySpectrum, GaussianSumSpectrum, UpsampledSpectrum>;
   template <class Distribution>
-    requires std::constructible_from<Kind, Distribution>
-  Spectrum(Distribution distribution) : kind_(std::move(distribution)) {}  // NOLINT(*-explicit-*)
+  requires std::constructible_from<Kind, Distribution> Spectrum(Distribution distribution)
+      : kind_(std::move(distribution)) {}  // NOLINT(*-explicit-*)
 
   /// Which distribution it is; std::visit it once, outside any loop.
   const Kind& kind() const noexcept { return kind_; }
@@ -239,8 +240,8 @@ class Spectrum : public SpectrumOperations<Spectrum> {
 };
 
 /// Integral of the product of two spectra: exact where both are piecewise linear, else by Gauss-Legendre
-/// quadrature between their samples to a relative 1e-9 of the integral of the product's magnitude. Limits must be
-/// finite.
+/// quadrature between their samples to a relative 1e-9 of the integral of the product's magnitude. Limits
+/// must be finite.
 double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFirstVisibleNm,
                      double last_nm = kLastVisibleNm);
 

@@ -148,7 +148,7 @@ Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb,
 /// expand().
 struct CoefficientLanes {
   ColorLanes c;
-  ScalarLanes scale;     ///< of no lanes where the method needs none
+  ScalarLanes scale;  ///< of no lanes where the method needs none
   /// Lanes without coefficients: theirs are those of the last colour that has some on the line from the grey
   /// of their luminance, where limit_gamut() would move them.
   GamutReport unsolved;

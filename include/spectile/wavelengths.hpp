@@ -66,28 +66,28 @@ enum class WavelengthSampling {
   kVisible,  ///< as 1/cosh^2(0.0072 (lambda - 538 nm)), which is close to the eye's sensitivity
 };
 
-/// Draws K wavelengths a lane from one random number each: u, u + 1/K, u + 2/K, ..., less 1 where that reaches
-/// 1, so that the range is covered evenly, through the inverse of the density's distribution.
-/// Shapes: u [lanes], from 0 to 1 (limited to that; NaN gives NaN). Units: nm.
-/// Errors: kSizeMismatch; kBadArgument for a range that does not ascend or is not within 1e-6 to 1e9 nm, and for
-/// kVisible one that holds less than a millionth of the density.
-/// Source of the density: Radziszewski, Boryczko, Alda, An Improved Technique for Full Spectral Rendering,
-/// Journal of WSCG 17, 2009.
+/// Draws K wavelengths a lane from one random number each: u, u + 1/K, u + 2/K, ..., less 1 where that
+/// reaches 1, so that the range is covered evenly, through the inverse of the density's distribution. Shapes:
+/// u [lanes], from 0 to 1 (limited to that; NaN gives NaN). Units: nm. Errors: kSizeMismatch; kBadArgument
+/// for a range that does not ascend or is not within 1e-6 to 1e9 nm, and for kVisible one that holds less
+/// than a millionth of the density. Source of the density: Radziszewski, Boryczko, Alda, An Improved
+/// Technique for Full Spectral Rendering, Journal of WSCG 17, 2009.
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
                                 double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
                                 const Execution& how = {});
 
-/// Terminates all but the first wavelength of the lanes whose `lanes_hit` is not 0 (of all, where it is empty),
-/// as at a dispersive surface: their densities become 0 and the first one's is divided by K, so that sums over
-/// the K stay unbiased. Lanes that are terminated already stay as they are.
-/// Shapes: lanes_hit [lanes] or empty. Errors: kSizeMismatch.
-Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<const std::uint8_t> lanes_hit = {});
+/// Terminates all but the first wavelength of the lanes whose `lanes_hit` is not 0 (of all, where it is
+/// empty), as at a dispersive surface: their densities become 0 and the first one's is divided by K, so that
+/// sums over the K stay unbiased. Lanes that are terminated already stay as they are. Shapes: lanes_hit
+/// [lanes] or empty. Errors: kSizeMismatch.
+Result<void> terminate_secondary(SampledWavelengths& wavelengths,
+                                 std::span<const std::uint8_t> lanes_hit = {});
 
 /// A spectrum made ready to be looked up in batches.
 ///
-/// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4 u
-/// (u = 2^-24) of the larger neighbour in magnitude, for wavelengths and knots rounded to float; black bodies
-/// within 6 u from 0.1 to 10^7 nm (and the least float); Gaussians within 1 u of the sum of the lobes'
+/// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4
+/// u (u = 2^-24) of the larger neighbour in magnitude, for wavelengths and knots rounded to float; black
+/// bodies within 6 u from 0.1 to 10^7 nm (and the least float); Gaussians within 1 u of the sum of the lobes'
 /// magnitudes; sigmoids as upsampled.
 class SpectrumSampler {
  public:
@@ -128,10 +128,9 @@ class ResponseCurves {
 /// radiance_k / density_k. Unbiased for wavelengths drawn with those densities; a terminated wavelength adds
 /// nothing, whatever its radiance.
 /// Shapes: radiance [k][lanes], color three times [lanes].
-/// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at the
-/// nanometres beside the wavelength; NaN and infinities go through. Errors:
-/// kSizeMismatch.
-Result<void> project(const ResponseCurves& curves, WavelengthView radiance, const SampledWavelengths& wavelengths,
-                     ColorSpan color, const Execution& how = {});
+/// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at
+/// the nanometres beside the wavelength; NaN and infinities go through. Errors: kSizeMismatch.
+Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
+                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& how = {});
 
 }  // namespace spectile

@@ -51,13 +51,11 @@ int list_all(const Arguments& a) {
       fmt::print("{}{},\"{}\",\"{}\",\"{}\",{}\n", last.empty() ? "name,kind,about,source,alias\n" : "",
                  info.name, info.kind, info.about, info.source, info.alias);
     } else if (a.common.json) {
-      fmt::print(
-          "{}\n",
-          dumped({{"name", info.name},
-                  {"kind", info.kind},
-                  {"about", info.about},
-                  {"source", info.source},
-                  {"alias", info.alias}}));
+      fmt::print("{}\n", dumped({{"name", info.name},
+                                 {"kind", info.kind},
+                                 {"about", info.about},
+                                 {"source", info.source},
+                                 {"alias", info.alias}}));
     } else if (!a.common.quiet) {
       if (info.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", info.kind);
       fmt::print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);

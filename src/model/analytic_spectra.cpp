@@ -26,12 +26,18 @@ double planck(double lambda_nm, double temperature_k) {
   return 2 * kPlanck * kLight * kLight / power / std::expm1(x) * kNanometre;
 }
 
-/// Integral of u^3 / (exp(u) - 1) from 0 to x, for x below 1, by Bernoulli's numbers: B_n x^(n + 3) / (n! (n +
-/// 3)).
+/// Integral of u^3 / (exp(u) - 1) from 0 to x, for x below 1, by Bernoulli's numbers: B_n x^(n + 3) / (n! (n
+/// + 3)).
 double below(double x) {
-  constexpr double kTerms[] = {1.0 / 3,         -1.0 / 8,       1.0 / 60,
-                               -1.0 / 5040,     1.0 / 272160,   -1.0 / 13305600,
-                               1.0 / 622702080, -691.0 / 19615115520000, 1.0 / 1270312243200};
+  constexpr double kTerms[] = {1.0 / 3,
+                               -1.0 / 8,
+                               1.0 / 60,
+                               -1.0 / 5040,
+                               1.0 / 272160,
+                               -1.0 / 13305600,
+                               1.0 / 622702080,
+                               -691.0 / 19615115520000,
+                               1.0 / 1270312243200};
   const double x2 = x * x;
   double even = 0;
   for (int i = 8; i >= 2; --i) even = even * x2 + kTerms[i];
@@ -103,10 +109,11 @@ Result<GaussianSumSpectrum> GaussianSumSpectrum::from_lobes(std::vector<Lobe> lo
     const bool finite = std::isfinite(l.amplitude) && std::isfinite(l.mean_nm) &&
                         std::isfinite(l.sigma_left_nm) && std::isfinite(l.sigma_right_nm);
     if (!finite || !(l.sigma_left_nm > 0) || !(l.sigma_right_nm > 0)) {
-      return make_error(ErrorCode::kBadArgument,
-                        "Gaussian {} has amplitude {}, mean {} nm, widths {} and {} nm; all must be finite and "
-                        "the widths above 0",
-                        i + 1, l.amplitude, l.mean_nm, l.sigma_left_nm, l.sigma_right_nm);
+      return make_error(
+          ErrorCode::kBadArgument,
+          "Gaussian {} has amplitude {}, mean {} nm, widths {} and {} nm; all must be finite and "
+          "the widths above 0",
+          i + 1, l.amplitude, l.mean_nm, l.sigma_left_nm, l.sigma_right_nm);
     }
   }
   GaussianSumSpectrum out;
@@ -160,7 +167,9 @@ double GaussianSumSpectrum::max_value() const noexcept {
 
 double GaussianSumSpectrum::integral(double first_nm, double last_nm) const noexcept {
   if (!(last_nm > first_nm)) return 0;
-  const auto half = [](double z) { return std::sqrt(std::numbers::pi / 2) * std::erf(z / std::numbers::sqrt2); };
+  const auto half = [](double z) {
+    return std::sqrt(std::numbers::pi / 2) * std::erf(z / std::numbers::sqrt2);
+  };
   double sum = 0;
   for (const Lobe& l : *lobes_) {
     const auto from_mean = [&](double nm) {
@@ -176,7 +185,8 @@ std::string GaussianSumSpectrum::to_text() const {
   std::string out = lobes_->size() == 1 ? "Gaussian" : "sum of Gaussians";
   for (std::size_t i = 0; i < lobes_->size(); ++i) {
     const Lobe& l = (*lobes_)[i];
-    out += fmt::format("{} {} at {} nm, sigma {}", i == 0 ? "" : ";", l.amplitude, l.mean_nm, l.sigma_left_nm);
+    out +=
+        fmt::format("{} {} at {} nm, sigma {}", i == 0 ? "" : ";", l.amplitude, l.mean_nm, l.sigma_left_nm);
     if (l.sigma_right_nm != l.sigma_left_nm) out += fmt::format(" and {}", l.sigma_right_nm);
     out += " nm";
   }

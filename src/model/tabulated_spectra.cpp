@@ -77,7 +77,8 @@ Result<DenselySampledSpectrum> DenselySampledSpectrum::from_values(int first_nm,
     return make_error(ErrorCode::kBadArgument, "a table at every nanometre takes 2 to {} values, not {}",
                       kMostNanometres + 1, values.size());
   }
-  if (std::int64_t{first_nm} + static_cast<std::int64_t>(values.size()) - 1 > std::numeric_limits<int>::max()) {
+  if (std::int64_t{first_nm} + static_cast<std::int64_t>(values.size()) - 1 >
+      std::numeric_limits<int>::max()) {
     return make_error(ErrorCode::kBadArgument, "a table of {} nm from {} nm on is beyond what can be counted",
                       values.size(), first_nm);
   }

@@ -12,7 +12,8 @@ namespace {
 /// The sigmoid of the quadratic at a wavelength. Source: Jakob, Hanika 2019; lambda = (nm - 550) / 150.
 double sigmoid(const std::array<float, 3>& c, double lambda_nm) {
   const double l = (lambda_nm - 550) / 150;
-  const double x = (static_cast<double>(c[0]) * l + static_cast<double>(c[1])) * l + static_cast<double>(c[2]);
+  const double x =
+      (static_cast<double>(c[0]) * l + static_cast<double>(c[1])) * l + static_cast<double>(c[2]);
   const double root = std::sqrt(1 + x * x);
   // From the side where nothing cancels.
   return x < 0 ? 0.5 / (root * (root - x)) : 0.5 + 0.5 * x / root;
@@ -36,8 +37,11 @@ double UpsampledSpectrum::max_value() const noexcept {
     const double vertex = c_[0] < 0 ? -0.5 * static_cast<double>(c_[1]) / static_cast<double>(c_[0]) : 0;
     return std::max(best, (*this)(c_[0] < 0 ? 550 + 150 * vertex : first_nm_));
   }
-  constexpr double kStepNm = 0.1;
-  for (double nm = first_nm_; nm < last_nm_; nm += kStepNm) best = std::max(best, (*this)(nm));
+  constexpr double kStepsPerNm = 10;
+  const auto steps = static_cast<std::size_t>((last_nm_ - first_nm_) * kStepsPerNm);
+  for (std::size_t i = 0; i <= steps; ++i) {
+    best = std::max(best, (*this)(first_nm_ + static_cast<double>(i) / kStepsPerNm));
+  }
   for (const double nm : table_->wavelengths_nm()) best = std::max(best, (*this)(nm));
   return best;
 }

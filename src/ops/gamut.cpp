@@ -16,8 +16,8 @@ namespace {
 
 using kernels::kLanes;
 
-// Moves at most before a colour becomes its grey: where the scale of a lane follows its largest component, the
-// colour moved is a little brighter to the search, and may have to move again.
+// Moves at most before a colour becomes its grey: where the scale of a lane follows its largest component,
+// the colour moved is a little brighter to the search, and may have to move again.
 constexpr int kMoves = 6;
 
 float luminance_of(const Upsampler& upsampler, const float v[3]) {

@@ -16,8 +16,8 @@ using kernels::kLanes;
 // Lanes solved in one go: their colours are kept aside where the coefficients overwrite them.
 constexpr std::size_t kChunk = 512;
 
-/// Twice the largest component, at most the largest float, and the colour divided by it; black and what is not
-/// finite as it comes.
+/// Twice the largest component, at most the largest float, and the colour divided by it; black and what is
+/// not finite as it comes.
 void normalize(const float* const rgb[3], float* const out[3], float* scale, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const float v[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};

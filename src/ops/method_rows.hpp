@@ -29,8 +29,8 @@ inline bool has_scale(const Upsampler& upsampler) {
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
            const Coefficients& out, std::uint64_t* unsolved, std::size_t n, float* part = nullptr);
 
-/// Whether some colours without a component outside [0, 1], or [0, infinity) where it has a scale, are none of
-/// the method's.
+/// Whether some colours without a component outside [0, 1], or [0, infinity) where it has a scale, are none
+/// of the method's.
 bool misses_inside(const Upsampler& upsampler);
 
 /// Coefficients to blocks of samples.

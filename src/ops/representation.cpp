@@ -104,7 +104,8 @@ Result<SampledSpectra> RgbRepresentation::light(const Spectrum& spectrum, std::s
   const auto xyz = xyz_of(spectrum, nullptr);
   if (!xyz) return xyz.error();
   const auto rgb = times(xyz_to_srgb_matrix(), *xyz);
-  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
+  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                           static_cast<float>(rgb[2])};
   return SampledSpectra::broadcast(bands_, lanes, values);
 }
 
@@ -118,7 +119,8 @@ Result<SampledSpectra> RgbRepresentation::reflectance(const Spectrum& spectrum, 
   if (!white) return white.error();
   // The white that D65 has here is the space's own but for its chromaticity's four decimals.
   const auto rgb = times(inverse(rgb_to_xyz(kRec709, *white)), *xyz);
-  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
+  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                           static_cast<float>(rgb[2])};
   return SampledSpectra::broadcast(bands_, lanes, values);
 }
 

@@ -51,7 +51,8 @@ Spectrum patch_of(const data::NamedTable& table) {
 
 Result<Sensor> Sensor::create(const std::array<Spectrum, 3>& curves, const SensorOptions& options) {
   if (!(options.exposure > 0) || !std::isfinite(options.exposure)) {
-    return make_error(ErrorCode::kBadArgument, "an exposure of {} is not above 0 and finite", options.exposure);
+    return make_error(ErrorCode::kBadArgument, "an exposure of {} is not above 0 and finite",
+                      options.exposure);
   }
   Triple of_one{};
   Triple of_white{};
@@ -61,8 +62,8 @@ Result<Sensor> Sensor::create(const std::array<Spectrum, 3>& curves, const Senso
     for (const double v : {of_one[c], of_white[c]}) {
       if (v > 0 && std::isfinite(v)) continue;
       return make_error(ErrorCode::kBadArgument,
-                        "response curve {} gives {} {} from 360 to 830 nm; it must be above 0 and finite", c + 1,
-                        v, &v == &of_one[c] ? "for equal energy" : "for the white balance's light");
+                        "response curve {} gives {} {} from 360 to 830 nm; it must be above 0 and finite",
+                        c + 1, v, &v == &of_one[c] ? "for equal energy" : "for the white balance's light");
     }
   }
   Triple factors{};

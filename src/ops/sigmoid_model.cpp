@@ -159,7 +159,8 @@ bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) 
       all = all && solved;
       if (solved) store_node(expand(sums, most, q, c), kSteps, node);
       // A node without a colour, or too steep to be expanded, is a plain start.
-      const bool usable = solved && std::all_of(node, node + kSigmoidNode, [](float v) { return std::isfinite(v); });
+      const bool usable =
+          solved && std::all_of(node, node + kSigmoidNode, [](float v) { return std::isfinite(v); });
       if (usable) continue;
       std::fill_n(node, kSigmoidNode, 0.0F);
       for (std::size_t n = 0; n < 3; ++n) node[n] = static_cast<float>(c[n] * std::sqrt(rgb[most]));

@@ -24,8 +24,8 @@ class SigmoidSums {
   /// Moves `c` to where the sums are `rgb`, by the method of Levenberg and Marquardt, in so many trials at
   /// most; whether it got there.
   bool solve(const Triple& rgb, Triple& c, int trials = 200) const;
-  /// The part of the line from (grey, grey, grey), above 0 and below 1, to `rgb` that sigmoids have; c becomes
-  /// those there.
+  /// The part of the line from (grey, grey, grey), above 0 and below 1, to `rgb` that sigmoids have; c
+  /// becomes those there.
   double reach(const Triple& rgb, double grey, Triple& c) const;
   /// The same without a start: along the line from grey.
   bool solve_from_grey(const Triple& rgb, Triple& c) const;

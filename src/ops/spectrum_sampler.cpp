@@ -51,11 +51,11 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
   const auto last = static_cast<float>(w.back());
   const float range = last - first;
   if (!std::isfinite(range)) {
-    return make_error(ErrorCode::kBadArgument, "samples from {} to {} nm are too far apart for float", w.front(),
-                      w.back());
+    return make_error(ErrorCode::kBadArgument, "samples from {} to {} nm are too far apart for float",
+                      w.front(), w.back());
   }
-  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All are
-  // in the first one where they are too close together for more.
+  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All
+  // are in the first one where they are too close together for more.
   float per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
   if (!std::isfinite(per_nm)) per_nm = 0;
   const auto bucket_of = [&](float nm) {
@@ -87,14 +87,20 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
                                     : 0;
     const double slope = length > 0 ? (v[i + 1] - v[i]) / length : 0;
     if (!fits_float(slope)) {
-      return make_error(ErrorCode::kBadArgument, "the slope from {} to {} nm is beyond the range of float", w[i],
-                        w[i + 1]);
+      return make_error(ErrorCode::kBadArgument, "the slope from {} to {} nm is beyond the range of float",
+                        w[i], w[i + 1]);
     }
     out.pairs.data()[2 * i] = static_cast<float>(v[i]);
     out.pairs.data()[2 * i + 1] = static_cast<float>(slope);
   }
-  out.table = {out.knots.data(), out.pairs.data(),    static_cast<std::int32_t>(n), out.start.data(),
-               per_nm,           static_cast<std::int32_t>(buckets), halvings,     held};
+  out.table = {out.knots.data(),
+               out.pairs.data(),
+               static_cast<std::int32_t>(n),
+               out.start.data(),
+               per_nm,
+               static_cast<std::int32_t>(buckets),
+               halvings,
+               held};
   return out;
 }
 
@@ -173,7 +179,8 @@ struct SpectrumSampler::Tables {
     const auto inverse = [](double sigma) { return std::min(1 / sigma, std::numeric_limits<double>::max()); };
     for (const auto& l : s.lobes()) {
       if (!fits_float(l.amplitude)) {
-        return make_error(ErrorCode::kBadArgument, "the amplitude {} is beyond the range of float", l.amplitude);
+        return make_error(ErrorCode::kBadArgument, "the amplitude {} is beyond the range of float",
+                          l.amplitude);
       }
       lobes.push_back({l.amplitude, l.mean_nm, inverse(l.sigma_left_nm), inverse(l.sigma_right_nm)});
     }

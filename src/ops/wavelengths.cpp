@@ -52,7 +52,8 @@ Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t c
   }
   const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
   if (lanes > (std::size_t{1} << 56) / count) {
-    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} wavelengths do not fit in memory", lanes, count);
+    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} wavelengths do not fit in memory", lanes,
+                      count);
   }
   auto buffer = FloatBuffer::create(std::max<std::size_t>(1, stride * count));
   if (!buffer) return buffer.error();
@@ -86,11 +87,11 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
   const WavelengthDensity density = density_over(first_nm, last_nm);
   constexpr double kLeastShare = 1e-6;  // less would be lost in the differences of the inverse
   if (sampling == WavelengthSampling::kVisible && !(density.by > 2 * kLeastShare)) {
-    return make_error(ErrorCode::kBadArgument, "{} to {} nm hold next to nothing of the eye's sensitivity", first_nm,
-                      last_nm);
+    return make_error(ErrorCode::kBadArgument, "{} to {} nm hold next to nothing of the eye's sensitivity",
+                      first_nm, last_nm);
   }
-  const auto kernel = sampling == WavelengthSampling::kUniform ? (*table)->even_wavelengths
-                                                               : (*table)->visible_wavelengths;
+  const auto kernel =
+      sampling == WavelengthSampling::kUniform ? (*table)->even_wavelengths : (*table)->visible_wavelengths;
   const WavelengthSpan lambda = out.lambda_nm.span();
   const WavelengthSpan pdf = out.density.span();
   tiles::for_blocks(blocks_for(u.lanes), how, [&](std::size_t first, std::size_t count) {

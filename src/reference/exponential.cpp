@@ -1,9 +1,10 @@
 // Scalar twins of exp and pow: the same series in the same order.
+#include "src/reference/exponential.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include "src/reference/arithmetic.hpp"
-#include "src/reference/exponential.hpp"
 
 namespace spectile::reference {
 namespace {

@@ -36,7 +36,8 @@ inline double log2_double(double v) {
 
 /// v held in [-1000, 1000]; NaN stays.
 inline double hold(double v) {
-  return v < -kernels::kExponentLimit ? -kernels::kExponentLimit : (kernels::kExponentLimit < v ? kernels::kExponentLimit : v);
+  return v < -kernels::kExponentLimit ? -kernels::kExponentLimit
+                                      : (kernels::kExponentLimit < v ? kernels::kExponentLimit : v);
 }
 
 }  // namespace spectile::reference

@@ -123,8 +123,8 @@ void visible_wavelengths(float* const* lambda_nm, float* const* density, const f
     for (std::size_t i = 0; i < n; ++i) {
       const float v = spread(u[i], k, count);
       const double y = d.from - v * d.by;
-      const double lambda = d.centre_nm - log2_double((1.0 + y) / (1.0 - y)) *
-                                              (0.5 * kernels::kLn2 * d.per_steepness_nm);
+      const double lambda =
+          d.centre_nm - log2_double((1.0 + y) / (1.0 - y)) * (0.5 * kernels::kLn2 * d.per_steepness_nm);
       lambda_nm[k][i] = std::isnan(v) ? v : static_cast<float>(lambda);
       density[k][i] = static_cast<float>(d.peak * (1.0 - y * y));
     }

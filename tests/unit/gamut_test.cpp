@@ -251,9 +251,9 @@ TEST(Gamut, LimitedColoursOfUnboundedSigmoidsScaleWithTheLight) {
 }
 
 TEST(Gamut, WhatIsNotFiniteStays) {
-  const Rgb colours[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},    {kInf, 0, 0},
-                         {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1},  {kNan, -1, 0.5F},
-                         {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},   {kNan, kNan, kNan}};
+  const Rgb colours[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},   {kInf, 0, 0},
+                         {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1}, {kNan, -1, 0.5F},
+                         {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},  {kNan, kNan, kNan}};
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
       const auto upsampler = upsampler_of(method, quantity);

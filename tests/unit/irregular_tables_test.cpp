@@ -41,7 +41,8 @@ long double oracle_integral(const Table& t, double a, double b) {
     const long double to = std::min<long double>(x1, b);
     if (!(to > from)) continue;
     const auto at = [&](long double x) {
-      return t.values[i - 1] + (t.values[i] - static_cast<long double>(t.values[i - 1])) * ((x - x0) / (x1 - x0));
+      return t.values[i - 1] +
+             (t.values[i] - static_cast<long double>(t.values[i - 1])) * ((x - x0) / (x1 - x0));
     };
     sum += (to - from) * (at(from) + at(to)) / 2;
   }
@@ -69,8 +70,9 @@ Bands bands_about(const Table& t, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   const double first = t.nm.front();
   const double last = t.nm.back();
-  std::vector<double> edges = {first - 60, first - 50, first,      first + 1e-3, first + 1e-3 + (last - first) * unit(random),
-                               last - 1e-4, last,       last + 1e-3, last + 40};
+  std::vector<double> edges = {
+      first - 60,  first - 50, first,       first + 1e-3, first + 1e-3 + (last - first) * unit(random),
+      last - 1e-4, last,       last + 1e-3, last + 40};
   std::sort(edges.begin(), edges.end());
   std::vector<Band> list;
   for (std::size_t i = 1; i < edges.size(); ++i) {
@@ -95,12 +97,14 @@ TEST(IrregularTables, AveragesAreTheOracles) {
       const double width = bands[b].width_nm();
       // Doubles, and an edge's own rounding against the narrowest band; then one rounding to float.
       const double bound = largest(t) * (0x1p-23 + 1e-10 / width);
-      ASSERT_NEAR(with_ends[b], static_cast<double>(oracle_with_ends(t, lower, upper)) / width, bound) << n << " " << b;
+      ASSERT_NEAR(with_ends[b], static_cast<double>(oracle_with_ends(t, lower, upper)) / width, bound)
+          << n << " " << b;
       ASSERT_NEAR(zero_outside[b], static_cast<double>(oracle_integral(t, lower, upper)) / width, bound)
           << n << " " << b;
     }
     const double whole = static_cast<double>(oracle_integral(t, -1e4, 1e6));
-    ASSERT_NEAR(linear.integral(-1e4, 1e6), whole, 1e-12 * largest(t) * (t.nm.back() - t.nm.front() + 1)) << n;
+    ASSERT_NEAR(linear.integral(-1e4, 1e6), whole, 1e-12 * largest(t) * (t.nm.back() - t.nm.front() + 1))
+        << n;
   }
 }
 
@@ -125,7 +129,8 @@ TEST(IrregularTables, InterpolationIsTheOraclesOneByOneAndInBatches) {
       // The last piece that begins at or before it; at the very end, the last sample.
       for (std::size_t k = 0; k + 1 < t.nm.size(); ++k) {
         if (t.nm[k] <= nm && nm < t.nm[k + 1]) {
-          const long double part = (static_cast<long double>(nm) - t.nm[k]) / (static_cast<long double>(t.nm[k + 1]) - t.nm[k]);
+          const long double part =
+              (static_cast<long double>(nm) - t.nm[k]) / (static_cast<long double>(t.nm[k + 1]) - t.nm[k]);
           want = t.values[k] + part * (static_cast<long double>(t.values[k + 1]) - t.values[k]);
         }
       }

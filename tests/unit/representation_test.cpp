@@ -1,4 +1,5 @@
-// One shading loop on two representations: equal where they must be, apart where three numbers do not suffice.
+// One shading loop on two representations: equal where they must be, apart where three numbers do not
+// suffice.
 #include <spectile/color_difference.hpp>
 #include <spectile/representation.hpp>
 
@@ -32,7 +33,8 @@ TEST(Representation, GreyIsGreyInBoth) {
   for (const int bounces : {0, 1, 5}) {
     const auto a = xyz_after(rgb, fluorescent(), ConstantSpectrum(0.5), bounces);
     const auto b = xyz_after(sampled, fluorescent(), ConstantSpectrum(0.5), bounces);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k] / b[k], 1, 1e-4) << bounces;  // averages over bands of 1 nm
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(a[k] / b[k], 1, 1e-4) << bounces;  // averages over bands of 1 nm
   }
 }
 
@@ -40,7 +42,8 @@ TEST(Representation, SaturatedBouncesUnderSpikyLightNeedSpectra) {
   const auto rgb = *RgbRepresentation::create();
   const auto sampled = *SampledRepresentation::create(*Bands::parse("380:780:5"));
   const auto truth = *SampledRepresentation::create(*Bands::parse("360:830:1"));
-  const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse("360:830:5"));
+  const auto upsampler =
+      *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse("360:830:5"));
   const Spectrum orange = *rgb_albedo_spectrum(upsampler, {0.7, 0.3, 0.05});
   const auto white = xyz_after(truth, fluorescent(), ConstantSpectrum(1), 0);
   const auto off = [&](const std::array<double, 3>& xyz, const std::array<double, 3>& want) {

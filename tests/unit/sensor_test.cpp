@@ -124,7 +124,8 @@ TEST(SensorFit, ACameraComesNearAndSaysHowNear) {
     EXPECT_LT(fit.max_ciede2000, 7) << name;
     EXPECT_LT(fit.white_ciede2000, 3) << name;
     // Exposure changes the matrix, not its errors.
-    const auto bright = *fit_sensor_to_xyz(*Sensor::named("canon-eos-5d-mkii", {50, light(name)}), light(name));
+    const auto bright =
+        *fit_sensor_to_xyz(*Sensor::named("canon-eos-5d-mkii", {50, light(name)}), light(name));
     EXPECT_NEAR(bright.mean_ciede2000, fit.mean_ciede2000, 1e-9);
     EXPECT_NEAR(bright.rgb_to_xyz[4] * 50, fit.rgb_to_xyz[4], 1e-9 * std::abs(fit.rgb_to_xyz[4]));
   }

@@ -1,5 +1,5 @@
-// The way from grey to a colour: what the quick search misses is found, and what no sigmoid has ends where the
-// sigmoids end.
+// The way from grey to a colour: what the quick search misses is found, and what no sigmoid has ends where
+// the sigmoids end.
 #include "src/ops/sigmoid_model.hpp"
 #include "src/reference/sigmoid.hpp"
 #include "tests/unit/kernel_fixture.hpp"
@@ -61,7 +61,7 @@ Reached reached(const KernelTable& t, const Upsampler& upsampler, const Floats& 
 class SigmoidReach : public KernelTest {};
 
 TEST_P(SigmoidReach, IsTheReferencesForEveryKindOfColour) {
-  const float values[] = {0.0F, kTiny, 1e-6F, 0.02F, 0.5F, 1.0F,  1.2F, -1e-3F,
+  const float values[] = {0.0F,  kTiny, 1e-6F, 0.02F, 0.5F, 1.0F,  1.2F, -1e-3F,
                           -0.3F, kMost, kNan,  kInf,  0.9F, -kInf, 3.0F, 0.25F};
   constexpr std::size_t kCount = std::size(values);
   constexpr std::size_t kAll = kCount * kCount * kCount;
@@ -110,9 +110,10 @@ TEST(SigmoidReach, TheCubeIsReachedWithoutTheQuickSearch) {
   for (std::size_t i = 0; i < grid.lanes(); ++i) {
     const float rgb[3] = {grid.at(i, 0), grid.at(i, 1), grid.at(i, 2)};
     float c[3];
-    const float part = reference::sigmoid_reach(c, rgb, upsampler.sigmoid()->table,
-                                                upsampler.luminance().data());
-    const bool end = (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) || (rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1);
+    const float part =
+        reference::sigmoid_reach(c, rgb, upsampler.sigmoid()->table, upsampler.luminance().data());
+    const bool end =
+        (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) || (rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1);
     ASSERT_EQ(part, end ? 0.0F : 1.0F) << rgb[0] << " " << rgb[1] << " " << rgb[2];
   }
 }

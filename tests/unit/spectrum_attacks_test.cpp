@@ -1,4 +1,5 @@
-// Spectra under attack: closed forms, every method and quantity, every instruction set through the public calls.
+// Spectra under attack: closed forms, every method and quantity, every instruction set through the public
+// calls.
 #include <cmath>
 #include <numbers>
 #include <spectile/radiometry.hpp>
@@ -19,17 +20,20 @@ TEST(InnerProduct, OfTwoGaussiansIsTheClosedForm) {
     const double s2 = std::pow(10, -3 + 5 * unit(random));
     const double m1 = 400 + 300 * unit(random);
     // Every third pair is so close that the product lies in both's tails.
-    const double m2 = i % 3 == 0 ? m1 + (24 * unit(random) - 12) * std::max(s1, s2) : 400 + 300 * unit(random);
+    const double m2 =
+        i % 3 == 0 ? m1 + (24 * unit(random) - 12) * std::max(s1, s2) : 400 + 300 * unit(random);
     const double square = s1 * s1 + s2 * s2;
     const double sigma = s1 * s2 / std::sqrt(square);
     const double mean = (m1 * s2 * s2 + m2 * s1 * s1) / square;
-    const double want = std::exp(-0.5 * (m1 - m2) * (m1 - m2) / square) * std::sqrt(2 * std::numbers::pi) * sigma;
+    const double want =
+        std::exp(-0.5 * (m1 - m2) * (m1 - m2) / square) * std::sqrt(2 * std::numbers::pi) * sigma;
     if (want < 1e-280) continue;
     ++compared;
     const auto a = *GaussianSumSpectrum::from_lobes({{1, m1, s1, s1}});
     const auto b = *GaussianSumSpectrum::from_lobes({{1, m2, s2, s2}});
     const double reach = 60 * (s1 + s2) + 100;
-    ASSERT_NEAR(inner_product(a, b, mean - reach, mean + reach) / want, 1, 1e-9) << a.to_text() << ", " << b.to_text();
+    ASSERT_NEAR(inner_product(a, b, mean - reach, mean + reach) / want, 1, 1e-9)
+        << a.to_text() << ", " << b.to_text();
   }
   EXPECT_GT(compared, 200);
 }
@@ -39,7 +43,8 @@ TEST(InnerProduct, SpikesAndLinesAgainstABlackBodyAreItsValueThere) {
   for (const double at : {400.0, 555.5, 829.0}) {
     const double nm[] = {at - 1e-3, at, at + 1e-3};
     const double v[] = {0, 1, 0};
-    EXPECT_NEAR(inner_product(*PiecewiseLinearSpectrum::from_samples(nm, v), black) / (1e-3 * black(at)), 1, 1e-9);
+    EXPECT_NEAR(inner_product(*PiecewiseLinearSpectrum::from_samples(nm, v), black) / (1e-3 * black(at)), 1,
+                1e-9);
     const auto line = *GaussianSumSpectrum::from_lobes({{1, at, 0.01, 0.01}});
     // To second order: half the square of sigma times the curvature.
     const double curvature = (black(at + 1) - 2 * black(at) + black(at - 1)) / black(at);
@@ -59,10 +64,10 @@ TEST(GaussianSumSpectrum, MaximumOfNarrowLobesOnAWideOne) {
 }
 
 TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
-  const std::array<double, 3> colors[] = {{0, 0, 0},      {1, 1, 1},       {0.5, 0.5, 0.5}, {1, 0, 0},
-                                          {0, 1, 0},      {0, 0, 1},       {1, 1, 0},       {0, 1, 1},
-                                          {1, 0, 1},      {0.999, 1e-4, 0.5}, {5, 2, 0.1},  {1e4, 0, 0},
-                                          {1e30, 1e30, 1e30}, {1e-30, 0, 1e-30}};
+  const std::array<double, 3> colors[] = {
+      {0, 0, 0},   {1, 1, 1},   {0.5, 0.5, 0.5},    {1, 0, 0},        {0, 1, 0},
+      {0, 0, 1},   {1, 1, 0},   {0, 1, 1},          {1, 0, 1},        {0.999, 1e-4, 0.5},
+      {5, 2, 0.1}, {1e4, 0, 0}, {1e30, 1e30, 1e30}, {1e-30, 0, 1e-30}};
   const Bands bands = *Bands::parse("380:780:10");
   int made = 0;
   for (const Method method :
@@ -83,7 +88,8 @@ TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
         double most = -1;
         for (std::size_t b = 0; b < bands.count(); ++b) {
           const double want = batch.at(0, b);
-          ASSERT_NEAR((*s)(bands[b].centre_nm), want, 3e-6 * std::max(std::abs(want), largest) + 1e-20) << what << b;
+          ASSERT_NEAR((*s)(bands[b].centre_nm), want, 3e-6 * std::max(std::abs(want), largest) + 1e-20)
+              << what << b;
         }
         for (double nm = 385; nm <= 775; nm += 0.01) most = std::max(most, (*s)(nm));
         ASSERT_NEAR(s->max_value(), most, 1e-6 * std::abs(most) + 1e-20) << what;
@@ -112,7 +118,8 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
       *BlackbodySpectrum::create(6500),
       *BlackbodySpectrum::create(1e9),
       *GaussianSumSpectrum::from_lobes({{1, 500, 1e-300, 2}, {-3, 600, 1e-3, 1e5}}),
-      *UpsampledSpectrum::from_rgb(*Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands()), {0.9, 0.4, 0.1})};
+      *UpsampledSpectrum::from_rgb(*Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands()),
+                                   {0.9, 0.4, 0.1})};
   const auto curves = *ResponseCurves::of_observer();
   const float odd_u[] = {0, 1 - 0x1p-24F, 1, -1, kNan, kInf, -kInf, kTiny, 0.5F};
   const float odd[] = {0, -0.0F, kInf, -kInf, kNan, -1, kTiny, kMost, 360, 830, 829.99994F};
@@ -127,7 +134,8 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
           std::mt19937 random(static_cast<std::uint32_t>(100 * lanes + count));
           std::uniform_real_distribution<float> unit(0, 1);
           auto u = *ScalarLanes::create(lanes);
-          for (std::size_t i = 0; i < lanes; ++i) u[i] = i % 5 == 0 ? odd_u[random() % std::size(odd_u)] : unit(random);
+          for (std::size_t i = 0; i < lanes; ++i)
+            u[i] = i % 5 == 0 ? odd_u[random() % std::size(odd_u)] : unit(random);
           std::vector<float> got;
           auto w = *SampledWavelengths::create(lanes, count);
           auto radiance = *WavelengthLanes::create(lanes, count);
@@ -153,7 +161,8 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
           }
           if (want.empty()) want = got;
           ASSERT_EQ(want.size(), got.size());
-          for (std::size_t i = 0; i < want.size(); ++i) ASSERT_TRUE(same_bits(want[i], got[i])) << isa << " " << i;
+          for (std::size_t i = 0; i < want.size(); ++i)
+            ASSERT_TRUE(same_bits(want[i], got[i])) << isa << " " << i;
         }
       }
       ASSERT_TRUE(force_isa(""));
@@ -187,7 +196,8 @@ TEST(SpectrumSampler, TablesOfAnyShapeAreWithinFourUnits) {
       for (std::size_t i = 0; i < count; ++i) {
         nm.push_back(std::min(1e9, static_cast<double>(static_cast<float>(at))));
         v.push_back(2 * unit(random) - 1);
-        const double steps[] = {1e-4 * unit(random), 0.1 * unit(random), std::pow(10, 9 * unit(random) - 1), unit(random)};
+        const double steps[] = {1e-4 * unit(random), 0.1 * unit(random), std::pow(10, 9 * unit(random) - 1),
+                                unit(random)};
         at += steps[shape];
       }
       const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);

@@ -78,7 +78,8 @@ TEST(BlackbodySpectrum, ValuesFarBelowThePeakAreWithinTheirBound) {
 
 TEST(BlackbodySpectrum, ValuesFarBeyondThePeakAreWithinTheirBound) {
   for (const double nm : {1e9, 1e15}) {
-    EXPECT_NEAR(static_cast<double>((*BlackbodySpectrum::create(6500))(nm) / planck_exactly(nm, 6500)), 1, 1e-13)
+    EXPECT_NEAR(static_cast<double>((*BlackbodySpectrum::create(6500))(nm) / planck_exactly(nm, 6500)), 1,
+                1e-13)
         << nm;
   }
 }
@@ -196,13 +197,15 @@ TEST(SpectrumSampler, KnotsWithinADenormalRangeStayInTheirTable) {
 // --- Gaussians
 
 TEST(GaussianSumSpectrum, MaximumOfALobeNarrowerThanWavelengthsCanBeTold) {
-  for (const GaussianSumSpectrum::Lobe lobe : {GaussianSumSpectrum::Lobe{1, 550, 1e-14, 1e-14}, {1, 1e17, 1, 1}}) {
+  for (const GaussianSumSpectrum::Lobe lobe :
+       {GaussianSumSpectrum::Lobe{1, 550, 1e-14, 1e-14}, {1, 1e17, 1, 1}}) {
     EXPECT_EQ(GaussianSumSpectrum::from_lobes({lobe})->max_value(), 1);
   }
 }
 
 TEST(SpectrumSampler, GaussiansOfExtremeWidthAndHeightAreWhatTheyAre) {
-  EXPECT_EQ(looked_up(*GaussianSumSpectrum::from_lobes({{1, 500, 1e-310, 1e-310}}), 500), 1);  // 0 * (1 / sigma)
+  EXPECT_EQ(looked_up(*GaussianSumSpectrum::from_lobes({{1, 500, 1e-310, 1e-310}}), 500),
+            1);  // 0 * (1 / sigma)
   EXPECT_FALSE(SpectrumSampler::create(*GaussianSumSpectrum::from_lobes({{1e300, 500, 1, 1}})));
 }
 
@@ -220,7 +223,9 @@ TEST(SampleWavelengths, VisibleOnesOverInfraredRangesAreInRangeWithDensitiesThat
       const double nm = w.lambda_nm.at(i, 0);
       const double density = w.density.at(i, 0);
       // sech^2 over the difference of two tanh, in a form where nothing cancels; in logarithms.
-      const auto log_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x))) - std::log(2); };
+      const auto log_cosh = [](double x) {
+        return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x))) - std::log(2);
+      };
       const double a = 0.0072 * (first - 538);
       const double b = 0.0072 * (last - 538);
       const double x = 0.0072 * (nm - 538);
@@ -285,7 +290,8 @@ TEST(ProjectedSolidAngle, OfADiskNearTheReceiversPlaneIsWithinTheBound) {
     const long double want = std::numbers::pi_v<long double> / 2 * (4 * r * r * h * h / b / (a + b));
     const auto got = projected_solid_angle(DiskEmitter{centre, {-3, 0, -4}, 1000}, Receiver{{}, {3, 0, 4}});
     ASSERT_TRUE(got);
-    EXPECT_NEAR(static_cast<double>(got->value() / want), 1, 1e-14 + 1e-12 / e) << e;  // 5000 m of 1e-16, twice
+    EXPECT_NEAR(static_cast<double>(got->value() / want), 1, 1e-14 + 1e-12 / e)
+        << e;  // 5000 m of 1e-16, twice
   }
 }
 

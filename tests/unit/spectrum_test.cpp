@@ -1,7 +1,7 @@
-// Distributions: values, maxima and integrals against definitions, closed forms and sums worked out otherwise.
-#include <spectile/spectrum.hpp>
-
+// Distributions: values, maxima and integrals against definitions, closed forms and sums worked out
+// otherwise.
 #include <numbers>
+#include <spectile/spectrum.hpp>
 
 #include "tests/unit/support.hpp"
 
@@ -72,7 +72,8 @@ TEST(PiecewiseLinearSpectrum, AveragesOverAnyBandsAreThoseOfASum) {
     }
     const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);
     // Wholly outside, touching the ends, narrower than the samples' spacing, wider than all.
-    const double edges[] = {300, 350, nm.front(), nm.front() + 0.3, nm.front() + 7.1, nm.back(), nm.back() + 4, 2000};
+    const double edges[] = {300,       350,           nm.front(), nm.front() + 0.3, nm.front() + 7.1,
+                            nm.back(), nm.back() + 4, 2000};
     for (std::size_t i = 1; i < std::size(edges); ++i) {
       const double a = edges[i - 1];
       const double b = edges[i];
@@ -114,7 +115,8 @@ TEST(BlackbodySpectrum, HasPlancksValues) {
   // 1.191042972e-16 W m^2 sr^-1, h c / k = 1.438776877e-2 m K.
   const auto s = *BlackbodySpectrum::create(6500);
   const double lambda = 500e-9;
-  const double want = 1.191042972e-16 / std::pow(lambda, 5) / (std::exp(1.438776877e-2 / lambda / 6500) - 1) * 1e-9;
+  const double want =
+      1.191042972e-16 / std::pow(lambda, 5) / (std::exp(1.438776877e-2 / lambda / 6500) - 1) * 1e-9;
   EXPECT_NEAR(s(500) / want, 1, 1e-8);
   EXPECT_EQ(s(0), 0);
   EXPECT_EQ(s(-500), 0);
@@ -135,7 +137,8 @@ TEST(BlackbodySpectrum, ObeysWienAndStefanBoltzmann) {
     const double split = 2.5 * peak_nm;
     EXPECT_NEAR((s.integral(0, split) + s.integral(split, 1e12 * peak_nm)) / whole, 1, 1e-12) << t;
     double pieces = 0;
-    for (double nm = peak_nm; nm < 20 * peak_nm; nm *= 1.25) pieces += s.integral(nm, std::min(1.25 * nm, 20 * peak_nm));
+    for (double nm = peak_nm; nm < 20 * peak_nm; nm *= 1.25)
+      pieces += s.integral(nm, std::min(1.25 * nm, 20 * peak_nm));
     EXPECT_NEAR(pieces / s.integral(peak_nm, 20 * peak_nm), 1, 1e-11) << t;
   }
 }
@@ -160,7 +163,7 @@ TEST(GaussianSumSpectrum, IsTheSumOfItsLobes) {
   const auto x_bar = *GaussianSumSpectrum::from_lobes(
       {{1.056, 599.8, 37.9, 31.0}, {0.362, 442.0, 16.0, 26.7}, {-0.065, 501.1, 20.4, 26.2}});
   EXPECT_NEAR(x_bar(599.8), 1.056 - 0.065 * std::exp(-0.5 * std::pow(98.7 / 26.2, 2)), 1e-6);
-  EXPECT_NEAR(x_bar(600), 1.0622, 0.02);    // CIE 1931
+  EXPECT_NEAR(x_bar(600), 1.0622, 0.02);  // CIE 1931
   EXPECT_NEAR(x_bar(440), 0.34828, 0.02);
   EXPECT_NEAR(x_bar.integral(360, 830), riemann(x_bar, 360, 830), 1e-6);
   EXPECT_NEAR(x_bar.integral(360, 830), 106.86, 1);

@@ -1,4 +1,5 @@
-// What plausible mistakes would have slipped by: table ends, wrap-around at exactly 1, the density over other ranges.
+// What plausible mistakes would have slipped by: table ends, wrap-around at exactly 1, the density over other
+// ranges.
 #include <cmath>
 #include <spectile/wavelengths.hpp>
 
@@ -34,7 +35,8 @@ TEST(SampleWavelengths, VisibleOnesFollowTheirDensityOverAnyRange) {
   constexpr std::size_t kLanes = 4096;
   auto u = *ScalarLanes::create(kLanes);
   for (std::size_t i = 0; i < kLanes; ++i) u[i] = (static_cast<float>(i) + 0.5F) / kLanes;
-  for (const auto& [first, last] : {std::pair{400.0, 700.0}, {360.0, 500.0}, {600.0, 1000.0}, {538.0, 538.5}, {1.0, 10.0}}) {
+  for (const auto& [first, last] :
+       {std::pair{400.0, 700.0}, {360.0, 500.0}, {600.0, 1000.0}, {538.0, 538.5}, {1.0, 10.0}}) {
     auto w = *SampledWavelengths::create(kLanes, 1);
     ASSERT_TRUE(sample_wavelengths(WavelengthSampling::kVisible, u.view(), w, first, last));
     const auto share = [](double nm) { return std::tanh(0.0072 * (nm - 538)); };
@@ -46,7 +48,8 @@ TEST(SampleWavelengths, VisibleOnesFollowTheirDensityOverAnyRange) {
       const double c = std::cosh(0.0072 * (nm - 538));
       ASSERT_NEAR(w.density.at(i, 0) * whole * c * c / 0.0072, 1, 1e-5) << first << " to " << last;
       // The share below it is the random number; a wavelength's rounding is 2^-15 nm.
-      ASSERT_NEAR((share(nm) - share(first)) / whole, u[i], 1e-6 + 6.2e-5 * w.density.at(i, 0)) << first << " to " << last;
+      ASSERT_NEAR((share(nm) - share(first)) / whole, u[i], 1e-6 + 6.2e-5 * w.density.at(i, 0))
+          << first << " to " << last;
     }
   }
 }
@@ -65,7 +68,8 @@ TEST(BlackbodySpectrum, SeriesBelowTheirTurnAgreeWithASumInLogarithms) {
       const long double nm = expl(logl(first) + (i + 0.5L) * step);
       const long double m = nm / 1e9L;
       const long double e = 6.62607015e-34L * 299792458.0L / (m * 1.380649e-23L * 3000);
-      sum += step * nm * 2 * 6.62607015e-34L * 299792458.0L * 299792458.0L / (m * m * m * m * m) / expm1l(e) / 1e9L;
+      sum += step * nm * 2 * 6.62607015e-34L * 299792458.0L * 299792458.0L / (m * m * m * m * m) / expm1l(e) /
+             1e9L;
     }
     EXPECT_NEAR(static_cast<double>(s.integral(first, last) / sum), 1, 3e-12) << x;
   }

@@ -46,7 +46,8 @@ TEST_P(WavelengthKernels, LookUpsAreTheReferences) {
   const std::int32_t start[] = {0, 2, 3, 4};
   for (const bool held : {false, true}) {
     const kernels::KnotTable table = {knots, plain.data(), 6, start, 4.0F / 300.0F, 4, 2, held};
-    expect_same([&](const auto& t, float* out) { t.look_up_knots(out, lambda.data(), table, kAll); }, "knots");
+    expect_same([&](const auto& t, float* out) { t.look_up_knots(out, lambda.data(), table, kAll); },
+                "knots");
   }
 }
 
@@ -57,10 +58,12 @@ TEST_P(WavelengthKernels, FormulasAreTheReferences) {
     expect_same([&](const auto& t, float* out) { t.planck(out, lambda.data(), table, kAll); }, "planck");
   }
   const kernels::GaussianLobe lobes[] = {{1, 550, 0.1, 0.02}, {-0.5, 600, 1e3, 1e-3}, {3, 0, 1, 1}};
-  expect_same([&](const auto& t, float* out) { t.gaussians(out, lambda.data(), lobes, 3, kAll); }, "gaussians");
+  expect_same([&](const auto& t, float* out) { t.gaussians(out, lambda.data(), lobes, 3, kAll); },
+              "gaussians");
   const float c[3] = {-3, 2, 0.5F};
-  expect_same([&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), c, 402.5F, 697.5F, 3, kAll); },
-              "sigmoid");
+  expect_same(
+      [&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), c, 402.5F, 697.5F, 3, kAll); },
+      "sigmoid");
 }
 
 TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
@@ -115,7 +118,8 @@ struct Looked {
   WavelengthLanes lambda, values;
 };
 
-Looked look_up(const Spectrum& spectrum, double low, double high, std::size_t lanes = 4099, std::size_t count = 4) {
+Looked look_up(const Spectrum& spectrum, double low, double high, std::size_t lanes = 4099,
+               std::size_t count = 4) {
   Looked out{*WavelengthLanes::create(lanes, count), *WavelengthLanes::create(lanes, count)};
   std::mt19937 random(11);
   std::uniform_real_distribution<float> nm(static_cast<float>(low), static_cast<float>(high));
@@ -141,9 +145,11 @@ TEST(SpectrumSampler, IsTheDistributionWithinItsBound) {
   expect_within(ConstantSpectrum(0.3), 300, 900, kU, 0);
   for (const double t : {1.0, 300.0, 2856.0, 6504.0, 1e5, 1e9}) {
     expect_within(*BlackbodySpectrum::create(t), 1, 20000, 6 * kU, 1e-44);
-    expect_within(*BlackbodySpectrum::create(t, BlackbodySpectrum::Scale::kNormalized), 200, 2000, 6 * kU, 1e-44);
+    expect_within(*BlackbodySpectrum::create(t, BlackbodySpectrum::Scale::kNormalized), 200, 2000, 6 * kU,
+                  1e-44);
   }
-  expect_within(*GaussianSumSpectrum::from_lobes({{2, 500, 20, 30}, {1, 620, 3, 1}}), 300, 900, 1.01 * kU, 1e-44);
+  expect_within(*GaussianSumSpectrum::from_lobes({{2, 500, 20, 30}, {1, 620, 3, 1}}), 300, 900, 1.01 * kU,
+                1e-44);
   const auto dense = *DenselySampledSpectrum::from(*BlackbodySpectrum::create(4000));
   expect_within(dense, 300, 900, 4 * kU, 0);
   const auto light = PiecewiseLinearSpectrum(*illuminant("FL11"));
@@ -179,8 +185,9 @@ TEST(SpectrumSampler, AnyPiecewiseLinearTableIsFound) {
     auto lambda = *WavelengthLanes::create(256, 1);
     auto values = *WavelengthLanes::create(256, 1);
     for (std::size_t i = 0; i < 256; ++i) {
-      lambda.at(i, 0) = i < nm.size() ? static_cast<float>(nm[i])
-                                      : static_cast<float>(nm.front() - 5 + (at - nm.front() + 10) * unit(random));
+      lambda.at(i, 0) = i < nm.size()
+                            ? static_cast<float>(nm[i])
+                            : static_cast<float>(nm.front() - 5 + (at - nm.front() + 10) * unit(random));
     }
     ASSERT_TRUE(sampler.sample(lambda.view(), values.span()));
     for (std::size_t i = 0; i < 256; ++i) {
@@ -214,8 +221,8 @@ TEST(SpectrumSampler, BatchesThatDoNotFitAreErrors) {
 
 // --- Drawing
 
-SampledWavelengths drawn(WavelengthSampling sampling, std::size_t lanes, std::size_t count, std::uint32_t seed,
-                         double first = 360, double last = 830) {
+SampledWavelengths drawn(WavelengthSampling sampling, std::size_t lanes, std::size_t count,
+                         std::uint32_t seed, double first = 360, double last = 830) {
   auto u = *ScalarLanes::create(lanes);
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0, 1);
@@ -330,9 +337,10 @@ std::array<double, 3> truth(const Spectrum& light) {
 }
 
 TEST(ProjectWavelengths, EstimatesAreUnbiased) {
-  // 99.99 % of all means lie within four standard errors; the seeds are fixed. Stratified lanes of the smoothest
-  // light have almost no variance: rounding is allowed for.
-  const Spectrum lights[] = {ConstantSpectrum(1), *BlackbodySpectrum::create(2856, BlackbodySpectrum::Scale::kNormalized),
+  // 99.99 % of all means lie within four standard errors; the seeds are fixed. Stratified lanes of the
+  // smoothest light have almost no variance: rounding is allowed for.
+  const Spectrum lights[] = {ConstantSpectrum(1),
+                             *BlackbodySpectrum::create(2856, BlackbodySpectrum::Scale::kNormalized),
                              PiecewiseLinearSpectrum(*illuminant("FL11")).scaled(0.01)};
   for (const Spectrum& light : lights) {
     const auto want = truth(light);
@@ -352,7 +360,8 @@ TEST(ProjectWavelengths, EstimatesAreUnbiased) {
 }
 
 TEST(ProjectWavelengths, VisibleOnesHaveTheLowerVariance) {
-  for (const Spectrum& light : {Spectrum(ConstantSpectrum(1)), Spectrum(PiecewiseLinearSpectrum(*illuminant("D65")))}) {
+  for (const Spectrum& light :
+       {Spectrum(ConstantSpectrum(1)), Spectrum(PiecewiseLinearSpectrum(*illuminant("D65")))}) {
     for (const std::size_t count : {1, 4}) {
       const Estimate uniform = estimate(light, WavelengthSampling::kUniform, count, false);
       const Estimate visible = estimate(light, WavelengthSampling::kVisible, count, false);
@@ -386,7 +395,8 @@ TEST(TerminateSecondary, OnlyTheFirstCountsAndOnce) {
 
 TEST(ResponseCurves, AnyThreeWillDo) {
   const auto box = *PiecewiseLinearSpectrum::from_samples(std::array{500.0, 600.0}, std::array{1.0, 1.0});
-  const auto curves = *ResponseCurves::create({box, ConstantSpectrum(1), *BlackbodySpectrum::create(5000)}, {2, 0.5, 1e-9});
+  const auto curves =
+      *ResponseCurves::create({box, ConstantSpectrum(1), *BlackbodySpectrum::create(5000)}, {2, 0.5, 1e-9});
   auto w = drawn(WavelengthSampling::kUniform, 10000, 8, 6);
   auto radiance = *WavelengthLanes::create(10000, 8);
   ASSERT_TRUE(sample(ConstantSpectrum(3), w.lambda_nm.view(), radiance.span()));
