@@ -38,7 +38,8 @@ double spherical_theta(const Vector3& v) noexcept {
   if (v == Vector3{}) return 0;
   // Scaled by a power of two, so that the length of neither part overflows.
   const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!std::isfinite(most)) return std::atan2(std::hypot(v.x, v.y), v.z);
+  // A NaN beside zeros, or an infinity.
+  if (!(most > 0) || !std::isfinite(most)) return std::atan2(std::hypot(v.x, v.y), v.z);
   const int exponent = -std::ilogb(most);
   const auto scaled = [exponent](double x) { return std::scalbn(x, exponent); };
   return std::atan2(std::hypot(scaled(v.x), scaled(v.y)), scaled(v.z));
