@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <spectile/radiometry.hpp>
 #include <spectile/spectrum.hpp>
 
 #include "src/base/errors.hpp"
@@ -11,19 +12,17 @@
 namespace spectile {
 namespace {
 
-// The SI's defining constants (BIPM, The International System of Units, 9th edition, 2019): exact.
-constexpr double kPlanck = 6.62607015e-34;       // J s
-constexpr double kLight = 299792458.0;           // m/s
-constexpr double kBoltzmann = 1.380649e-23;      // J/K
-constexpr double kNanometre = 1e-9;              // m
-constexpr double kWienPeak = 4.965114231744276;  // root of x = 5 (1 - exp(-x))
+constexpr double kPlanck = kPlanckConstant.value();        // J s
+constexpr double kLight = kSpeedOfLight.value();           // m/s
+constexpr double kBoltzmann = kBoltzmannConstant.value();  // J/K
+constexpr double kNmInMetres = 1e-9;                       // m
 
 /// Planck's law per nanometre. Units: W/(m^2 sr nm).
 double planck(double lambda_nm, double temperature_k) {
-  const double lambda = lambda_nm * kNanometre;
+  const double lambda = lambda_nm * kNmInMetres;
   const double x = kPlanck * kLight / (lambda * kBoltzmann * temperature_k);
   const double power = lambda * lambda * lambda * lambda * lambda;
-  return 2 * kPlanck * kLight * kLight / power / std::expm1(x) * kNanometre;
+  return 2 * kPlanck * kLight * kLight / power / std::expm1(x) * kNmInMetres;
 }
 
 /// Integral of u^3 / (exp(u) - 1) from 0 to x, for x below 1, by Bernoulli's numbers: B_n x^(n + 3) / (n! (n
@@ -67,7 +66,7 @@ Result<BlackbodySpectrum> BlackbodySpectrum::create(double temperature_k, Scale 
   BlackbodySpectrum out;
   out.temperature_k_ = temperature_k;
   out.scale_ = scale;
-  const double peak_nm = kPlanck * kLight / (kBoltzmann * temperature_k * kWienPeak) / kNanometre;
+  const double peak_nm = kPlanck * kLight / (kBoltzmann * temperature_k * kWienRoot) / kNmInMetres;
   if (scale == Scale::kNormalized) out.factor_ = 1 / planck(peak_nm, temperature_k);
   return out;
 }
@@ -81,7 +80,7 @@ double BlackbodySpectrum::operator()(double lambda_nm) const noexcept {
 
 double BlackbodySpectrum::max_value() const noexcept {
   if (scale_ == Scale::kNormalized) return 1;
-  return planck(kPlanck * kLight / (kBoltzmann * temperature_k_ * kWienPeak) / kNanometre, temperature_k_);
+  return planck(kPlanck * kLight / (kBoltzmann * temperature_k_ * kWienRoot) / kNmInMetres, temperature_k_);
 }
 
 double BlackbodySpectrum::integral(double first_nm, double last_nm) const noexcept {
@@ -89,7 +88,7 @@ double BlackbodySpectrum::integral(double first_nm, double last_nm) const noexce
   if (!(last_nm > from)) return 0;
   // Narrow ranges would be lost in the difference of two series.
   if (last_nm < 4 * from) return quadrature::adaptive(*this, from, last_nm, 1e-13);
-  const double unit = kPlanck * kLight / (kNanometre * kBoltzmann * temperature_k_);  // nm
+  const double unit = kPlanck * kLight / (kNmInMetres * kBoltzmann * temperature_k_);  // nm
   const double whole =
       2 * kPlanck * kLight * kLight * std::pow(kBoltzmann * temperature_k_ / (kPlanck * kLight), 4);
   // Far beyond the peak both tails are nearly the whole.

@@ -1,6 +1,7 @@
 // Spectrum: any distribution behind one value type, and products of two.
 #include <algorithm>
 #include <cmath>
+#include <spectile/radiometry.hpp>
 #include <spectile/spectrum.hpp>
 
 #include "src/model/quadrature.hpp"
@@ -12,8 +13,7 @@ namespace {
 void add_breaks(const ConstantSpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
 void add_breaks(const BlackbodySpectrum& s, std::vector<double>& breaks) {
   // Octaves about the peak: over a very wide range bisection alone would not find it.
-  constexpr double kWienDisplacementNmK = 2.897771955e6;  // CODATA 2018
-  double nm = kWienDisplacementNmK / s.temperature_k() / 64;
+  double nm = kWienDisplacement.value() * 1e9 / s.temperature_k() / 64;
   for (int octave = 0; octave < 50; ++octave, nm *= 2) breaks.push_back(nm);
 }
 void add_breaks(const PiecewiseLinearSpectrum& s, std::vector<double>& breaks) {

@@ -1,9 +1,9 @@
 // Representations of light and materials with one interface.
 #include <algorithm>
 #include <spectile/representation.hpp>
+#include <spectile/sensor.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/ops/shape.hpp"
 #include "src/ops/tiles.hpp"
@@ -11,26 +11,12 @@
 namespace spectile {
 namespace {
 
-/// XYZ of light relative to a spectrum that is 1 everywhere, or where `under` is given, of a reflectance
-/// under it relative to white.
-Result<std::array<double, 3>> xyz_of(const Spectrum& spectrum, const Spectrum* under) {
-  const data::MatchingFunctions& cie = data::kCie1931;
-  const std::span<const double> bars[3] = {cie.x_bar, cie.y_bar, cie.z_bar};
-  std::array<double, 3> out{};
-  double whole = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double> weights(bars[c].begin(), bars[c].end());
-    for (std::size_t i = 0; i < weights.size() && under != nullptr; ++i) {
-      weights[i] *= (*under)(cie.first_nm + static_cast<double>(i) * cie.step_nm);
-    }
-    const auto curve =
-        DenselySampledSpectrum::from_values(static_cast<int>(cie.first_nm), std::move(weights));
-    if (!curve) return curve.error();
-    out[c] = inner_product(*curve, spectrum);
-    if (c == 1) whole = curve->integral(kFirstVisibleNm, kLastVisibleNm);
-  }
-  for (double& v : out) v /= whole;
-  return out;
+Result<SampledSpectra> broadcast_rgb(const Bands& bands, std::size_t lanes, const Matrix3& to_rgb,
+                                     const std::array<double, 3>& xyz) {
+  const auto rgb = times(to_rgb, xyz);
+  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                           static_cast<float>(rgb[2])};
+  return SampledSpectra::broadcast(bands, lanes, values);
 }
 
 }  // namespace
@@ -101,27 +87,20 @@ Result<SampledSpectra> RgbRepresentation::constant(std::size_t lanes, float valu
 }
 
 Result<SampledSpectra> RgbRepresentation::light(const Spectrum& spectrum, std::size_t lanes) const {
-  const auto xyz = xyz_of(spectrum, nullptr);
-  if (!xyz) return xyz.error();
-  const auto rgb = times(xyz_to_srgb_matrix(), *xyz);
-  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-                           static_cast<float>(rgb[2])};
-  return SampledSpectra::broadcast(bands_, lanes, values);
+  const auto observer = Sensor::named("cie1931");
+  if (!observer) return observer.error();
+  return broadcast_rgb(bands_, lanes, xyz_to_srgb_matrix(), observer->response(spectrum));
 }
 
 Result<SampledSpectra> RgbRepresentation::reflectance(const Spectrum& spectrum, std::size_t lanes) const {
+  const auto observer = Sensor::named("cie1931");
+  if (!observer) return observer.error();
   const auto d65 = illuminant("D65");
   if (!d65) return d65.error();
-  const Spectrum under = PiecewiseLinearSpectrum(*d65);
-  const auto xyz = xyz_of(spectrum, &under);
-  const auto white = xyz_of(ConstantSpectrum(1), &under);
-  if (!xyz) return xyz.error();
-  if (!white) return white.error();
+  const Spectrum light = PiecewiseLinearSpectrum(*d65);
   // The white that D65 has here is the space's own but for its chromaticity's four decimals.
-  const auto rgb = times(inverse(rgb_to_xyz(kRec709, *white)), *xyz);
-  const float values[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-                           static_cast<float>(rgb[2])};
-  return SampledSpectra::broadcast(bands_, lanes, values);
+  const Matrix3 to_rgb = inverse(rgb_to_xyz(kRec709, observer->response(light)));
+  return broadcast_rgb(bands_, lanes, to_rgb, observer->response(light, spectrum));
 }
 
 Result<void> RgbRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan out,

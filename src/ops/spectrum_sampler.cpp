@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <spectile/radiometry.hpp>
 #include <spectile/wavelengths.hpp>
 
 #include "src/base/errors.hpp"
@@ -162,10 +163,11 @@ struct SpectrumSampler::Tables {
   Result<void> set(const BlackbodySpectrum& s) {
     kind = Kind::kPlanck;
     // From two places: the law's exponent from the temperature, the factor from a value.
-    constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;  // h c / k
-    constexpr double kUnitNm = 1024;  // of the kernel
+    constexpr double kSecondRadiationNmK =
+        (kPlanckConstant * kSpeedOfLight / kBoltzmannConstant).value() * 1e9;  // h c / k
+    constexpr double kUnitNm = 1024;                                           // of the kernel
     const double exponent = kSecondRadiationNmK / s.temperature_k() * std::numbers::log2e / kUnitNm;
-    const double peak_nm = kSecondRadiationNmK / s.temperature_k() / 4.965114231744276;
+    const double peak_nm = kSecondRadiationNmK / s.temperature_k() / kWienRoot;
     const double factor = s(peak_nm) * std::pow(peak_nm / kUnitNm, 5) *
                           std::expm1(kSecondRadiationNmK / (peak_nm * s.temperature_k()));
     planck.factor = static_cast<float>(factor);

@@ -1,10 +1,10 @@
 // Sampled wavelengths in batches: drawing and terminating them, and projecting radiance at them.
 #include <algorithm>
 #include <cmath>
+#include <spectile/sensor.hpp>
 #include <spectile/wavelengths.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/ops/rows_of.hpp"
 #include "src/ops/shape.hpp"
@@ -119,17 +119,9 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<cons
 }
 
 Result<ResponseCurves> ResponseCurves::of_observer(Observer observer) {
-  const data::MatchingFunctions& cie = observer == Observer::kCie1931 ? data::kCie1931 : data::kCie1964;
-  double whole = 0;
-  const std::span<const double> bars[3] = {cie.x_bar, cie.y_bar, cie.z_bar};
-  std::vector<Spectrum> curves;
-  for (const auto& bar : bars) {
-    auto curve = DenselySampledSpectrum::from_values(kFirstNm, {bar.begin(), bar.end()});
-    if (!curve) return curve.error();
-    if (&bar == &bars[1]) whole = curve->integral(kFirstVisibleNm, kLastVisibleNm);
-    curves.emplace_back(*std::move(curve));
-  }
-  return create({curves[0], curves[1], curves[2]}, {1 / whole, 1 / whole, 1 / whole});
+  const auto sensor = Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964");
+  if (!sensor) return sensor.error();
+  return sensor->response_curves();
 }
 
 Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& curves,
