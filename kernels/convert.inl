@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/simd.hpp"
+#include "kernels/simd_convert.hpp"
 
 namespace spectile::kernels {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "kernels/exponential_constants.hpp"
 #include "kernels/simd.hpp"
+#include "kernels/simd_convert.hpp"
 
 namespace spectile::kernels {
 namespace {

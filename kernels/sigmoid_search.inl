@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/sigmoid.inl"
+#include "kernels/simd_tables.hpp"
 
 namespace spectile::kernels {
 namespace {

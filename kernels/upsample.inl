@@ -2,6 +2,8 @@
 #pragma once
 
 #include "kernels/simd.hpp"
+#include "kernels/simd_convert.hpp"
+#include "kernels/simd_tables.hpp"
 
 namespace spectile::kernels {
 namespace {

@@ -4,6 +4,8 @@
 #include "kernels/exponential.inl"
 #include "kernels/sigmoid.inl"
 #include "kernels/simd.hpp"
+#include "kernels/simd_convert.hpp"
+#include "kernels/simd_tables.hpp"
 
 namespace spectile::kernels {
 namespace {
