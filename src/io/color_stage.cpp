@@ -47,13 +47,7 @@ float ColorStage::line(const Strip& strip, int line, const ColorLine& color, Lin
   return largest;
 }
 
-bool ColorStage::forbidden(const LineStats& stats) const {
-  return (options_.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0) ||
-         (options_.negative == Negative::kStop && stats.negative.count > 0) ||
-         (out_of_gamut_ == GamutPolicy::kStop && stats.outside.count > 0);
-}
-
-Error ColorStage::refusal(const std::string& path, const LineStats& stats) const {
+std::optional<Error> ColorStage::refusal(const std::string& path, const LineStats& stats) const {
   if (options_.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0) {
     return stopped_at(path, ErrorCode::kNonFinite, "non-finite", stats.nonfinite,
                       "--nonfinite zero makes them black");
@@ -62,8 +56,11 @@ Error ColorStage::refusal(const std::string& path, const LineStats& stats) const
     return stopped_at(path, ErrorCode::kBadFile, "negative", stats.negative,
                       "--negative clip or keep converts them");
   }
-  return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside,
-                    "--out-of-gamut clip or keep converts them");
+  if (out_of_gamut_ == GamutPolicy::kStop && stats.outside.count > 0) {
+    return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside,
+                      "--out-of-gamut clip or keep converts them");
+  }
+  return {};
 }
 
 Result<Upsampler> upsampler_for(const MethodOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <spectile/image.hpp>
 #include <string>
 
@@ -25,10 +26,8 @@ class ColorStage {
   /// The space that the input's RGB is taken for.
   const RgbSpace& space() const noexcept { return space_; }
   GamutPolicy out_of_gamut() const noexcept { return out_of_gamut_; }
-  /// Whether what was found forbids an output.
-  bool forbidden(const LineStats& stats) const;
-  /// The error that says so.
-  Error refusal(const std::string& path, const LineStats& stats) const;
+  /// The error that what was found makes of the conversion, if it forbids an output.
+  std::optional<Error> refusal(const std::string& path, const LineStats& stats) const;
 
  private:
   const RgbSource& source_;

@@ -1,5 +1,4 @@
 // expand_image: an image of a method's coefficients becomes a spectral one, line by line.
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
@@ -119,7 +118,6 @@ void note_continued(const Upsampler& upsampler, const Bands& bands, std::vector<
 
 Result<ImageReport> expand_file(const std::string& input, const std::string& output,
                                 const ExpandImageOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
   SPECTILE_TRY(io::check_distinct(input, output));
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
@@ -151,22 +149,14 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, slots));
 
-  const auto forbidden = [&](const LineStats& stats) {
-    return options.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0;
-  };
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  const auto stats = io::run_conversion(job, **writer, slots, lines, options, forbidden);
-  if (!stats) return stats.error();
-  if (forbidden(*stats)) {
-    return io::stopped_at(input, ErrorCode::kNonFinite, "non-finite", stats->nonfinite,
-                          "--nonfinite zero makes them black");
-  }
-  ImageReport report = io::report_of(**writer, *stats);
+  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  if (!converted) return converted.error();
+  ImageReport report = *std::move(converted);
   report.bands = bands.count();
   report.quantity = upsampler.quantity();
   report.notes = (*source)->notes();
   note_continued(upsampler, bands, report.notes);
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 
@@ -174,7 +164,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
 
 Result<ImageReport> expand_image(const std::string& input, const std::string& output,
                                  const ExpandImageOptions& options) {
-  return io::contained<ImageReport>(input, [&] { return expand_file(input, output, options); });
+  return io::timed(input, [&] { return expand_file(input, output, options); });
 }
 
 }  // namespace spectile

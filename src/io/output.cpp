@@ -1,6 +1,7 @@
 // What every image job does at its edges: checks of its paths, and the report.
 #include "src/io/output.hpp"
 
+#include <chrono>
 #include <filesystem>
 
 #include "src/base/errors.hpp"
@@ -15,7 +16,22 @@ Result<void> check_distinct(const std::string& input, const std::string& output)
   return {};
 }
 
-ImageReport report_of(const ExrWriter& writer, const LineStats& stats) {
+Refusal at_nonfinite(const std::string& input, const ImageOptions& options) {
+  return
+      [&input, stop = options.nonfinite == NonFinite::kStop](const LineStats& stats) -> std::optional<Error> {
+        if (!stop || stats.nonfinite.count == 0) return {};
+        return stopped_at(input, ErrorCode::kNonFinite, "non-finite", stats.nonfinite,
+                          "--nonfinite zero makes them black");
+      };
+}
+
+Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                            const ImageOptions& options, const Refusal& refusal) {
+  const auto forbids = [&refusal](const LineStats& found) { return refusal(found).has_value(); };
+  const auto run = run_conversion(job, writer, slots, strip_lines, options, forbids);
+  if (!run) return run.error();
+  const LineStats& stats = *run;
+  if (auto refused = refusal(stats)) return *std::move(refused);
   ImageReport report;
   report.width = writer.width();
   report.height = writer.height();
@@ -25,6 +41,14 @@ ImageReport report_of(const ExrWriter& writer, const LineStats& stats) {
   report.out_of_gamut_pixels = stats.outside.count;
   report.limited_pixels = stats.limited;
   report.bytes_written = writer.bytes_written();
+  return report;
+}
+
+Result<ImageReport> timed(const std::string& path, const std::function<Result<ImageReport>()>& action) {
+  const auto start = std::chrono::steady_clock::now();
+  auto report = contained<ImageReport>(path, action);
+  if (report)
+    report->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 

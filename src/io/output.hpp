@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <spectile/image.hpp>
 #include <string>
 
@@ -14,8 +15,16 @@ namespace spectile::io {
 /// Errors: kBadArgument when both paths are one file.
 Result<void> check_distinct(const std::string& input, const std::string& output);
 
-/// Size, counts and bytes of a finished conversion.
-ImageReport report_of(const ExrWriter& writer, const LineStats& stats);
+/// The error that what a conversion found makes of it, where it forbids an output; else nothing.
+using Refusal = std::function<std::optional<Error>(const LineStats&)>;
+
+/// That of conversions of spectra: at numbers that are not finite, where the options say stop.
+Refusal at_nonfinite(const std::string& input, const ImageOptions& options);
+
+/// Runs a conversion and reports its size, counts and bytes.
+/// Errors: those of run_conversion(), and the refusal.
+Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                            const ImageOptions& options, const Refusal& refusal);
 
 /// Runs `action`; whatever a library throws inside becomes an error that names `path`, for the library's
 /// boundary.
@@ -25,5 +34,8 @@ Result<T> contained(const std::string& path, const std::function<Result<T>()>& a
   if (auto run = guarded(path, [&] { result = action(); }); !run) return run.error();
   return result;
 }
+
+/// The same for a conversion, with the time that it took.
+Result<ImageReport> timed(const std::string& path, const std::function<Result<ImageReport>()>& action);
 
 }  // namespace spectile::io

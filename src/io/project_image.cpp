@@ -1,6 +1,5 @@
 // project_image: a spectral image becomes sRGB, XYZ or luminance, line by line.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
@@ -175,7 +174,6 @@ Result<Projector> projector_for(const io::SpectralSource& source, const std::str
 
 Result<ImageReport> project_file(const std::string& input, const std::string& output,
                                  const ProjectImageOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
   SPECTILE_TRY(io::check_distinct(input, output));
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
@@ -206,21 +204,13 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, spec.channels, slots));
 
-  const auto forbidden = [&](const LineStats& stats) {
-    return options.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0;
-  };
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  const auto stats = io::run_conversion(job, **writer, slots, lines, options, forbidden);
-  if (!stats) return stats.error();
-  if (forbidden(*stats)) {
-    return io::stopped_at(input, ErrorCode::kNonFinite, "non-finite", stats->nonfinite,
-                          "--nonfinite zero makes them black");
-  }
-  ImageReport report = io::report_of(**writer, *stats);
+  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  if (!converted) return converted.error();
+  ImageReport report = *std::move(converted);
   report.bands = (*source)->bands().count();
   report.quantity = (*source)->quantity();
   report.notes = (*source)->notes();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 
@@ -228,7 +218,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
 
 Result<ImageReport> project_image(const std::string& input, const std::string& output,
                                   const ProjectImageOptions& options) {
-  return io::contained<ImageReport>(input, [&] { return project_file(input, output, options); });
+  return io::timed(input, [&] { return project_file(input, output, options); });
 }
 
 }  // namespace spectile

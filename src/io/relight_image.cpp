@@ -1,6 +1,5 @@
 // relight_image: a texture becomes its colour under another light, line by line, without its spectra.
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <spectile/image.hpp>
 #include <spectile/relight.hpp>
@@ -122,7 +121,6 @@ class RelightJob : public io::LineJob {
 
 Result<ImageReport> relight_file(const std::string& input, const std::string& output,
                                  const RelightImageOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
   SPECTILE_TRY(io::check_distinct(input, output));
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
@@ -153,17 +151,15 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, slots));
-  const auto forbidden = [&](const LineStats& stats) { return job.stage().forbidden(stats); };
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  const auto stats = io::run_conversion(job, **writer, slots, lines, options, forbidden);
-  if (!stats) return stats.error();
-  if (forbidden(*stats)) return job.stage().refusal(input, *stats);
-  ImageReport report = io::report_of(**writer, *stats);
+  const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
+  auto converted = io::convert(job, **writer, slots, lines, options, refusal);
+  if (!converted) return converted.error();
+  ImageReport report = *std::move(converted);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
   report.notes = (*source)->notes();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 
@@ -171,7 +167,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
 
 Result<ImageReport> relight_image(const std::string& input, const std::string& output,
                                   const RelightImageOptions& options) {
-  return io::contained<ImageReport>(input, [&] { return relight_file(input, output, options); });
+  return io::timed(input, [&] { return relight_file(input, output, options); });
 }
 
 }  // namespace spectile

@@ -1,5 +1,4 @@
 // upsample_image: an RGB image becomes a spectral one, line by line.
-#include <chrono>
 #include <cstring>
 #include <spectile/image.hpp>
 
@@ -139,7 +138,6 @@ class UpsampleJob : public io::LineJob {
 
 Result<ImageReport> upsample(const std::string& input, const std::string& output,
                              const UpsampleImageOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
   SPECTILE_TRY(io::check_distinct(input, output));
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
@@ -166,17 +164,15 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, slots));
 
-  const auto forbidden = [&](const LineStats& stats) { return job.stage().forbidden(stats); };
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  const auto stats = io::run_conversion(job, **writer, slots, lines, options, forbidden);
-  if (!stats) return stats.error();
-  if (forbidden(*stats)) return job.stage().refusal(input, *stats);
-  ImageReport report = io::report_of(**writer, *stats);
+  const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
+  auto converted = io::convert(job, **writer, slots, lines, options, refusal);
+  if (!converted) return converted.error();
+  ImageReport report = *std::move(converted);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
   report.notes = (*source)->notes();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 
@@ -184,7 +180,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
 
 Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
                                    const UpsampleImageOptions& options) {
-  return io::contained<ImageReport>(input, [&] { return upsample(input, output, options); });
+  return io::timed(input, [&] { return upsample(input, output, options); });
 }
 
 }  // namespace spectile
