@@ -1,0 +1,78 @@
+// ProceduralScene: pictures whose every pixel has a known exact value, as batches of samples for films.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <spectile/film.hpp>
+#include <spectile/spectrum.hpp>
+#include <spectile/wavelengths.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spectile {
+
+/// How samples are drawn of a scene.
+struct SceneSampling {
+  std::uint64_t seed = 1;
+  std::uint64_t samples_per_pixel = 16;
+  /// Of each pixel's samples this shard draws those whose number modulo `shards` is `shard`: the shards
+  /// together are the very samples of one run.
+  std::uint64_t shard = 0;
+  std::uint64_t shards = 1;
+  std::size_t wavelengths = 4;  ///< a sample, for films fed with wavelengths
+  WavelengthSampling density = WavelengthSampling::kVisible;
+};
+
+/// A batch of samples in memory of its own, as a film takes it.
+class SceneBatch {
+ public:
+  static Result<SceneBatch> create(std::size_t most_samples, std::size_t rows, bool wavelengths);
+  std::size_t size() const noexcept { return size_; }
+  WavelengthSamples wavelength_samples() const noexcept;
+  BandSamples band_samples() const noexcept;
+
+ private:
+  friend class ProceduralScene;
+  SceneBatch() = default;
+  FloatBuffer x_, y_, weight_;
+  FloatBuffer radiance_, lambda_, density_;
+  std::size_t capacity_ = 0, size_ = 0, rows_ = 0;
+};
+
+/// A scene: axis-aligned rectangles of the unit square over one another, each of a spectrum times a product
+/// of a linear function of x and one of y; black between them. Such a scene has a closed form under every
+/// separable filter.
+class ProceduralScene {
+ public:
+  /// "gradients", "edges", "spikes", "decades" or "mixed", the four of them side by side.
+  /// Errors: kUnknownName, listing the names.
+  static Result<ProceduralScene> named(std::string_view name);
+  static std::vector<std::string> names();
+
+  /// Radiance at a point of a film of width x height pixels. Units: pixels, nm, W/(m^2 sr nm).
+  double radiance(double x, double y, double lambda_nm, int width, int height) const;
+
+  /// Draws the samples of a run of pixels: of `count` pixels from the `first` on, in tiles of kFilmTile
+  /// (left to right, top to bottom, and so within a tile), of the film's window, positions spread over each
+  /// pixel's area (or, where the film places samples in one pixel, as its filter is importance-sampled).
+  /// The same pixel gets the same samples whatever the run. Replaces what the batch held.
+  /// Errors: kSizeMismatch where they do not fit into the batch; kBadArgument for a shard that there is not.
+  Result<void> draw(const FilmOptions& film, const SceneSampling& sampling, std::uint64_t first,
+                    std::uint64_t count, SceneBatch& batch) const;
+
+  /// Exact values of a pixel, by closed forms in double: what a film of these options comes to with more and
+  /// more samples.
+  std::array<double, 3> xyz(const FilmOptions& film, int x, int y) const;
+  std::array<double, 3> sensor(const FilmOptions& film, std::size_t sensor, int x, int y) const;
+  /// One value a band: averages.
+  std::vector<double> spectrum(const FilmOptions& film, int x, int y) const;
+
+ private:
+  struct Parts;
+  explicit ProceduralScene(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace spectile
