@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "src/model/quadrature.hpp"
@@ -48,22 +50,21 @@ class MagnitudeTable {
     const double wanted = share * total_;
     while (i + 1 < cells_.size() && cells_[i + 1].before <= wanted) ++i;
     const Cell& cell = cells_[i];
-    const double part = std::clamp((wanted - cell.before) / cell.mass, 0.0, 1.0);
-    // The root of first t + (second - first) t^2 / 2 = part (first + second) / 2 that does not cancel.
+    const double part = std::min((wanted - cell.before) * cell.per_mass, 1.0);
+    // The root of 2 first t + (1 - 2 first) t^2 = part, written so that it does not cancel.
     const double first = cell.first;
-    const double second = cell.second;
-    const double root = std::sqrt(first * first + (second * second - first * first) * part);
-    const double t = first + root > 0 ? part * (first + second) / (first + root) : part;
+    const double t = part / (first + std::sqrt(first * first + (1 - 2 * first) * part) + kTiny);
     const double d = cell.from + std::min(t, 1.0) * cell.width;
     return {both < 0 ? -d : d, cell.negative};
   }
 
  private:
-  static constexpr double kCells = 1024;
-  static constexpr double kLeastCells = 8;
+  static constexpr double kCells = 256;  // the table stays in the innermost cache
+  static constexpr double kLeastCells = 16;
+  static constexpr double kTiny = std::numeric_limits<double>::min();  // for 0 / 0
   struct Cell {
-    double from, width, before, mass;  ///< before: integral from 0 to it
-    double first, second;              ///< magnitude at both ends
+    double from, width, before, per_mass;  ///< before: integral from 0 to it
+    double first;                          ///< magnitude at its beginning, over the sum of those at both ends
     bool negative;
   };
 
@@ -86,24 +87,27 @@ class MagnitudeTable {
   void add_of_one_sign(const Function& f, double from, double to) {
     const double signed_mass = quadrature::ten_points(f, from, to);
     const double mass = std::abs(signed_mass);
-    if (!(mass > 0)) return;  // nothing is drawn there
-    cells_.push_back({from, to - from, total_, mass, std::abs(f(from)), std::abs(f(to)), signed_mass < 0});
+    if (!std::isnormal(mass)) return;  // nothing is drawn there
+    const double first = std::abs(f(from));
+    const double both = first + std::abs(f(to));
+    const double beginning = both > 0 ? first / both : 0.5;
+    cells_.push_back({from, to - from, total_, 1 / mass, beginning, signed_mass < 0});
     total_ += mass;
   }
 
   void make_guide() {
-    guide_.resize(cells_.size());
+    // A power of two, so that shares and guides come from one another without rounding.
+    guide_.resize(std::bit_ceil(2 * cells_.size()));
     std::size_t i = 0;
     for (std::size_t g = 0; g < guide_.size(); ++g) {
       const double at = static_cast<double>(g) / static_cast<double>(guide_.size()) * total_;
       while (i + 1 < cells_.size() && cells_[i + 1].before <= at) ++i;
-      // One less: the quotient that finds a guide may have been rounded up.
-      guide_[g] = static_cast<std::uint32_t>(i > 0 ? i - 1 : 0);
+      guide_[g] = static_cast<std::uint32_t>(i);
     }
   }
 
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> guide_;  ///< a cell at or before the one of each even share of the integral
+  std::vector<std::uint32_t> guide_;  ///< the cell of each even share of the integral
   double total_ = 0;
 };
 
