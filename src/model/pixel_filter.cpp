@@ -117,8 +117,8 @@ std::vector<double> FilterAccess::smooth_pieces(const PixelFilter& filter, doubl
   }
   // A quarter of a period of the faster sine.
   if (filter.kind_ == FilterKind::kLanczos) step = 0.5 * std::min(1.0, filter.first_);
-  const double count = std::ceil(end / step);
-  for (double i = 1; i < count; ++i) out.push_back(i * step);
+  const auto count = static_cast<int>(std::ceil(end / step));
+  for (int i = 1; i < count; ++i) out.push_back(i * step);
   out.push_back(end);
   if (end < radius) out.push_back(radius);
   return out;

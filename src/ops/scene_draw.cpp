@@ -48,6 +48,22 @@ float placed(int pixel, double offset) {
   return at < end ? at : std::nextafter(end, 0.0F);
 }
 
+/// Radiance of the chunk's spectra at wavelengths. `tables`: pairs of a value and the difference to the next,
+/// kIntervals of them a spectrum.
+void look_up(float* radiance, const float* lambda_nm, const Chunk& chunk, const float* tables,
+             std::size_t n) {
+  constexpr auto kIntervals = static_cast<std::int32_t>(kLastVisibleNm - kFirstVisibleNm);
+  for (std::size_t i = 0; i < n; ++i) {
+    // A wavelength may be rounded out of the range that it is drawn from.
+    const float t =
+        std::clamp(lambda_nm[i] - static_cast<float>(kFirstVisibleNm), 0.0F, static_cast<float>(kIntervals));
+    const std::int32_t nm = std::min(static_cast<std::int32_t>(t), kIntervals - 1);
+    const float* const pair =
+        tables + 2 * (std::size_t{chunk.spectrum[i]} * kIntervals + static_cast<std::size_t>(nm));
+    radiance[i] = chunk.factor[i] * (pair[0] + (t - static_cast<float>(nm)) * pair[1]);
+  }
+}
+
 Result<void> check(const FilmOptions& film, const SceneSampling& sampling, const PixelWindow& window,
                    std::uint64_t first, std::uint64_t count) {
   if (sampling.shard >= sampling.shards) {
@@ -210,15 +226,7 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
       std::copy_n(lambda, n, batch.lambda_.data() + at);
       std::copy_n(density, n, batch.density_.data() + at);
       float* const radiance = batch.radiance_.data() + at;
-      constexpr auto kIntervals = static_cast<float>(Parts::kIntervals);
-      for (std::size_t i = 0; i < n; ++i) {
-        // A wavelength may be rounded out of the range that it is drawn from.
-        const float t = std::clamp(lambda[i] - static_cast<float>(kFirstVisibleNm), 0.0F, kIntervals);
-        const std::int32_t nm =
-            std::min(static_cast<std::int32_t>(t), static_cast<std::int32_t>(Parts::kIntervals) - 1);
-        const float* const pair = parts_->table(chunk.spectrum[i]) + 2 * nm;
-        radiance[i] = chunk.factor[i] * (pair[0] + (t - static_cast<float>(nm)) * pair[1]);
-      }
+      look_up(radiance, lambda, chunk, parts_->tables.data(), n);
     }
   }
   batch.size_ = total;

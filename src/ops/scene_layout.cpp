@@ -23,8 +23,7 @@ Edges::Edges(std::vector<double> at) : at_(std::move(at)) {
   at_.push_back(0);
   at_.push_back(1);
   std::ranges::sort(at_);
-  const auto twice = std::ranges::unique(at_);
-  at_.erase(twice.begin(), twice.end());
+  at_.erase(std::unique(at_.begin(), at_.end()), at_.end());
   std::uint32_t i = 0;
   for (std::size_t g = 0; g < kGuides; ++g) {
     // A product with a power of two is exact, so a number's guide never lies above it.

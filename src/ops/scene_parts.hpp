@@ -11,12 +11,10 @@ namespace spectile {
 
 struct ProceduralScene::Parts {
   explicit Parts(scene::Picture picture);
-  /// Pairs of a value and the difference to the next, every nanometre, of a spectrum.
-  const float* table(std::size_t spectrum) const noexcept {
-    return tables.data() + spectrum * 2 * kIntervals;
-  }
   static constexpr std::size_t kIntervals = static_cast<std::size_t>(kLastVisibleNm - kFirstVisibleNm);
   scene::Layout layout;
+  /// Of each spectrum, every nanometre: a value and the difference to the next.
+  /// Shapes: [spectrum][kIntervals][2].
   std::vector<float> tables;
   mutable scene::Responses responses;
 };

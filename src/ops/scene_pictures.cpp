@@ -16,17 +16,16 @@ class Painter {
   /// A table at every nanometre of a product of two spectra.
   std::size_t add(const Spectrum& light, const Spectrum& reflectance = ConstantSpectrum(1)) {
     std::vector<double> values;
-    for (double nm = kFirstVisibleNm; nm <= kLastVisibleNm; ++nm) {
-      values.push_back(light(nm) * reflectance(nm));
-    }
-    const auto first = static_cast<int>(kFirstVisibleNm);
+    constexpr auto kFirst = static_cast<int>(kFirstVisibleNm);
+    constexpr auto kLast = static_cast<int>(kLastVisibleNm);
+    for (int nm = kFirst; nm <= kLast; ++nm) values.push_back(light(nm) * reflectance(nm));
     static const Sensor observer = *Sensor::named("cie1931");
-    const auto table = *DenselySampledSpectrum::from_values(first, values);
+    const auto table = *DenselySampledSpectrum::from_values(kFirst, values);
     const double y = observer.factors()[1] * inner_product(observer.curves()[1], table);
     // The far tails of lines, which float would keep as denormals or not at all.
     constexpr double kNothing = 1e-15;
     for (double& v : values) v = v / y < kNothing ? 0 : v / y;
-    picture_.spectra.push_back(*DenselySampledSpectrum::from_values(first, std::move(values)));
+    picture_.spectra.push_back(*DenselySampledSpectrum::from_values(kFirst, std::move(values)));
     return picture_.spectra.size() - 1;
   }
   std::size_t add(const char* light) { return add(*named_spectrum(light)); }
@@ -137,8 +136,9 @@ Picture spikes() {
       p.add_lines({{1, 488, 1, 1}, {1, 532, 1, 1}, {1, 632.8, 1, 1}}),
       p.add_lines({{1, 452, 9, 14}, {0.4, 560, 45, 70}})};
   for (std::size_t i = 0; i < std::size(spectra); ++i) {
-    const double x = static_cast<double>(i % 3);
-    const double y = static_cast<double>(i / 3);
+    const auto x = static_cast<double>(i % 3);
+    const std::size_t row = i / 3;
+    const auto y = static_cast<double>(row);
     const double steep = i % 2 == 0 ? 1 : 0.2;
     p.ramp({x / 3, (x + 1) / 3, y / 3, (y + 1) / 3}, spectra[i], {steep, 1}, {1, 1.5 - 0.5 * steep});
   }
@@ -181,6 +181,7 @@ constexpr std::array kPictures = {Named{"gradients", gradients}, Named{"edges", 
 
 std::vector<std::string> picture_names() {
   std::vector<std::string> out;
+  out.reserve(kPictures.size());
   for (const Named& n : kPictures) out.emplace_back(n.name);
   return out;
 }
