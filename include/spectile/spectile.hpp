@@ -6,11 +6,15 @@
 #include <spectile/color_difference.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/directions.hpp>
+#include <spectile/film.hpp>
+#include <spectile/film_file.hpp>
 #include <spectile/image.hpp>
 #include <spectile/irradiance.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/named_spectra.hpp>
+#include <spectile/pixel_filter.hpp>
+#include <spectile/procedural_scene.hpp>
 #include <spectile/radiometry.hpp>
 #include <spectile/relight.hpp>
 #include <spectile/representation.hpp>

@@ -206,6 +206,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
   if (n == 0) return {};
   const auto table = dispatch::active();
   if (!table) return table.error();
+  const std::shared_lock lock(s.whole);
   std::mutex mutex;
   Result<void> result;
   tiles::for_blocks(blocks_for(n), how, [&](std::size_t first_block, std::size_t blocks) {
@@ -224,7 +225,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
     } catch (const std::bad_alloc&) {  // the error that stands there already
     }
     if (done) return;
-    const std::scoped_lock lock(mutex);
+    const std::scoped_lock first(mutex);
     if (result) result = done;
   });
   if (result && s.overflown) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
 #include <spectile/film.hpp>
 #include <string>
 #include <vector>
@@ -83,6 +84,9 @@ struct Film::State {
   std::array<std::atomic<std::uint64_t>, kernels::kFilmReasons> counts{};
   std::atomic<bool> overflown = false;
 
+  /// Held together while batches are added, and alone while a film is saved: files hold whole batches.
+  std::shared_mutex whole;
+
   std::mutex scratch_mutex;
   std::vector<std::unique_ptr<FilmScratch>> scratch;
 
@@ -102,8 +106,8 @@ struct Film::State {
 
 /// The way to a film's insides for the operations on films.
 struct FilmAccess {
-  static Film::State& state(Film& film) noexcept { return *film.state_; }
-  static const Film::State& state(const Film& film) noexcept { return *film.state_; }
+  /// Developing and saving a film that does not change still settle its limbs.
+  static Film::State& state(const Film& film) noexcept { return *film.state_; }
   static Film make(std::unique_ptr<Film::State> state) { return Film(std::move(state)); }
   using State = Film::State;
 };

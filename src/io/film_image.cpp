@@ -1,0 +1,143 @@
+// write_developed: a layer of a film as an image.
+#include <cstring>
+#include <spectile/film_file.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/band_channels.hpp"
+#include "src/io/output.hpp"
+#include "src/ops/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+/// Lines of a development, floats or halves.
+class DevelopedJob : public io::LineJob {
+ public:
+  DevelopedJob(const FilmDevelopment& development, PixelType pixel, const kernels::KernelTable& kernels)
+      : development_(development), pixel_(pixel), kernels_(kernels) {}
+
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+    writer_ = &writer;
+    for (std::size_t i = 0; i < slots; ++i) {
+      auto row = FloatBuffer::create(2 * padded());
+      if (!row) return row.error();
+      std::fill_n(row->data(), row->size(), 0.0F);
+      rows_.push_back(*std::move(row));
+    }
+    return {};
+  }
+  Result<std::shared_ptr<io::Strip>> read(int first_line, int lines) override {
+    auto strip = std::make_shared<io::Strip>();
+    strip->first_line = first_line;
+    strip->lines = lines;
+    return strip;
+  }
+  void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
+            io::LineStats& stats) override {
+    const auto width = static_cast<std::size_t>(development_.width());
+    float* const row = rows_[slot].data();
+    auto* const halves = reinterpret_cast<std::uint16_t*>(row + padded());
+    for (std::size_t p = 0; p < development_.planes(); ++p) {
+      const float* const from =
+          development_.plane(p) + static_cast<std::size_t>(line) * development_.stride();
+      if (pixel_ == PixelType::kFloat) {
+        if (packed != nullptr) std::memcpy(packed + writer_->channel_offset(p), from, width * sizeof(float));
+        continue;
+      }
+      for (std::size_t x = 0; x < width; ++x) {
+        // Beyond the largest half: written as that, and counted. Infinite variance stays what it is.
+        const bool beyond = std::abs(from[x]) > kernels::kHalfMax && std::abs(from[x]) < INFINITY;
+        row[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
+        stats.limited += beyond ? 1 : 0;
+      }
+      if (packed == nullptr) continue;
+      kernels_.float_to_half(halves, row, padded());
+      std::memcpy(packed + writer_->channel_offset(p), halves, width * sizeof(std::uint16_t));
+    }
+  }
+
+ private:
+  std::size_t padded() const {
+    return blocks_for(static_cast<std::size_t>(development_.width())) * kLanesPerBlock;
+  }
+  const FilmDevelopment& development_;
+  PixelType pixel_;
+  const kernels::KernelTable& kernels_;
+  const io::ExrWriter* writer_ = nullptr;
+  std::vector<FloatBuffer> rows_;
+};
+
+std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, PixelType pixel) {
+  std::vector<io::ChannelSpec> out;
+  const exr_pixel_type_t type = pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  const auto add = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) out.push_back({name, type});
+  };
+  switch (layer) {
+    case FilmLayer::kXyz:
+      add({"X", "Y", "Z"});
+      break;
+    case FilmLayer::kSrgb:
+    case FilmLayer::kSensor:
+      add({"R", "G", "B"});
+      break;
+    case FilmLayer::kLuminance:
+      add({"Y"});
+      break;
+    case FilmLayer::kSpectrum:
+      io::add_band_channels(out, film.options().bands, Quantity::kIlluminant, pixel);
+      break;
+    case FilmLayer::kWeight:
+      add({"weight"});
+      break;
+    case FilmLayer::kCount:
+      add({"count"});
+      break;
+    case FilmLayer::kVariance:
+      add({"variance"});
+      break;
+  }
+  return out;
+}
+
+Result<ImageReport> write(const Film& film, FilmLayer layer, std::size_t sensor, const std::string& path,
+                          const ImageOptions& options) {
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  auto development = FilmDevelopment::create(film, layer, sensor);
+  if (!development) return development.error();
+  const auto updated = development->update({options.threads});
+  if (!updated) return updated.error();
+  const PixelWindow w = film.window();
+  const Imath::Box2i display({0, 0}, {film.options().width - 1, film.options().height - 1});
+  const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
+  const Imf::Header header(display, data);
+  io::ImageSpec spec;
+  spec.source = &header;
+  spec.channels = channels_of(film, layer, options.pixel);
+  spec.compression = options.compression;
+  if (layer == FilmLayer::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
+  if (layer == FilmLayer::kSensor) {
+    spec.text_attributes = {{"spectileSensor", film.options().sensors[sensor].name}};
+  }
+  if (layer == FilmLayer::kSpectrum) io::add_layout_attributes(spec.text_attributes, Quantity::kIlluminant);
+  const std::size_t slots = io::slot_count(spec, w.width(), tiles::thread_count(options.threads));
+  auto writer = io::ExrWriter::create(path, spec, slots);
+  if (!writer) return writer.error();
+  DevelopedJob job(*development, options.pixel, **kernels);
+  SPECTILE_TRY(job.prepare(**writer, slots));
+  auto report = io::convert(job, **writer, slots, w.height(), options,
+                            [](const io::LineStats&) { return std::optional<Error>(); });
+  if (report && layer == FilmLayer::kSpectrum) report->bands = film.options().bands.count();
+  return report;
+}
+
+}  // namespace
+
+Result<ImageReport> write_developed(const Film& film, FilmLayer layer, std::size_t sensor,
+                                    const std::string& path, const ImageOptions& options) {
+  return io::timed(path, [&] { return write(film, layer, sensor, path, options); });
+}
+
+}  // namespace spectile
