@@ -28,8 +28,10 @@ struct SceneSampling {
 /// A batch of samples in memory of its own, as a film takes it.
 class SceneBatch {
  public:
+  /// `rows`: wavelengths a sample, or bands. Errors: kOutOfMemory.
   static Result<SceneBatch> create(std::size_t most_samples, std::size_t rows, bool wavelengths);
   std::size_t size() const noexcept { return size_; }
+  /// Without weights where all are 1; none of the kind that the batch is not for.
   WavelengthSamples wavelength_samples() const noexcept;
   BandSamples band_samples() const noexcept;
 
@@ -60,15 +62,21 @@ class ProceduralScene {
   /// (left to right, top to bottom, and so within a tile), of the film's window, positions spread over each
   /// pixel's area (or, where the film places samples in one pixel, as its filter is importance-sampled).
   /// The same pixel gets the same samples whatever the run. Replaces what the batch held.
-  /// Errors: kSizeMismatch where they do not fit into the batch; kBadArgument for a shard that there is not.
+  /// All are independent; float positions are the nearest within the pixel to those that radiance is of.
+  /// Errors: kSizeMismatch where they do not fit into the batch, or it is for other rows; kBadArgument for a
+  /// shard that there is not, a window beyond the film, pixels beyond the window; kOutOfMemory.
   Result<void> draw(const FilmOptions& film, const SceneSampling& sampling, std::uint64_t first,
                     std::uint64_t count, SceneBatch& batch) const;
 
   /// Exact values of a pixel, by closed forms in double: what a film of these options comes to with more and
-  /// more samples.
+  /// more samples, but for its maximum_component, which they know nothing of. Colours of a film fed with
+  /// bands are projections of the bands' averages. Splatted samples exist in the film's window only, so a
+  /// filter is cut off there; the others see beyond it, up to the scene's end. Of no observer: CIE 1931; of a
+  /// sensor that there is not: 0.
   std::array<double, 3> xyz(const FilmOptions& film, int x, int y) const;
   std::array<double, 3> sensor(const FilmOptions& film, std::size_t sensor, int x, int y) const;
-  /// One value a band: averages.
+  /// One value a band: averages; of a film fed with wavelengths over that part of a band that they are drawn
+  /// from, 360 to 830 nm.
   std::vector<double> spectrum(const FilmOptions& film, int x, int y) const;
 
  private:

@@ -52,7 +52,7 @@ TEST(ProceduralScene, KnowsItsNames) {
 }
 
 TEST(ProceduralScene, ValuesAreTheMeansOfItsRadiance) {
-  constexpr int kSteps = 600;
+  constexpr int kSteps = 400;
   for (const std::string& name : ProceduralScene::names()) {
     const ProceduralScene s = scene(name);
     for (const char* filter : {"box", "triangle:1.2x0.8", "gaussian:1.5:0.5", "mitchell:2", "lanczos:3:3"}) {
