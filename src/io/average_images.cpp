@@ -57,9 +57,9 @@ class AverageJob : public io::LineJob {
     return out;
   }
 
-  /// Lines worth a strip: whole chunks of every image, some 32 MiB of sums.
+  /// Lines worth a strip: whole chunks of every image, some 4 MiB of sums, which caches hold.
   int strip_lines(int at_least) const {
-    constexpr std::size_t kStripBytes = std::size_t{32} << 20;
+    constexpr std::size_t kStripBytes = std::size_t{4} << 20;
     const int unit = std::max(inputs_.chunk_lines(), at_least);
     const auto fitting = static_cast<int>(std::min<std::size_t>(kStripBytes / plan_.line_bytes(), 256));
     return std::clamp(fitting / unit * unit, std::min(unit, io::height_of(inputs_.header())),
@@ -162,7 +162,7 @@ class AverageJob : public io::LineJob {
     auto samples = io::make_strip(plan_.planes, plan_.width, sums.first_line, sums.lines);
     if (!samples) return samples.error();
     SPECTILE_TRY(inputs_.fill(input, **samples));
-    const auto added = sums.add(**samples, plan_.weights.units[input], i == 0, kernels_);
+    const auto added = sums.add(**samples, plan_.weights.units[input], i, kernels_);
     if (!added) return added.error();
     if (added->difference) {
       const io::Difference& at = *added->difference;

@@ -10,6 +10,9 @@
 namespace spectile::io {
 namespace {
 
+// Prime to the usual heights of strips, and more lines than threads drift apart while they add.
+constexpr std::size_t kLinesApart = 7;
+
 std::size_t sum_bytes(const AveragePlan& plan, std::size_t plane) {
   if (plan.planes[plane].type == Imf::UINT) return sizeof(std::uint32_t);
   return exact::words(plan.depths[plane]) * sizeof(std::uint64_t);
@@ -60,7 +63,7 @@ std::uint64_t* AverageStrip::sums(std::size_t plane, int line) {
   return reinterpret_cast<std::uint64_t*>(Strip::row(plane, line));
 }
 
-Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, bool first,
+Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, std::size_t image,
                                 const kernels::KernelTable& kernels) {
   auto row = FloatBuffer::create(padded(plan_));
   if (!row) return row.error();
@@ -69,14 +72,20 @@ Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, bool fi
   for (int line = first_line; line < first_line + lines; ++line) {
     for (std::size_t plane = 0; plane < plan_.planes.size(); ++plane) {
       if (plan_.planes[plane].type != Imf::UINT || added.difference) continue;
-      added.difference = settle_whole(samples, plane, line, first);
+      added.difference = settle_whole(samples, plane, line, image == 0);
     }
-    if (add_line(samples, line, units, row->data(), bad, kernels)) continue;
+  }
+  // Images that are added side by side begin at different lines, not to wait for each other at every one.
+  std::vector<PixelCount> nonfinite(static_cast<std::size_t>(lines));
+  for (int i = 0; i < lines; ++i) {
+    const int at = static_cast<int>((static_cast<std::size_t>(i) + image * kLinesApart) % nonfinite.size());
+    if (add_line(samples, first_line + at, units, row->data(), bad, kernels)) continue;
     const auto from = std::find(bad.begin(), bad.end(), 1);
-    added.nonfinite.add(static_cast<std::uint64_t>(std::count(from, bad.end(), 1)),
-                        static_cast<int>(from - bad.begin()), line);
+    nonfinite[static_cast<std::size_t>(at)].add(static_cast<std::uint64_t>(std::count(from, bad.end(), 1)),
+                                                static_cast<int>(from - bad.begin()), first_line + at);
     std::fill(bad.begin(), bad.end(), 0);
   }
+  for (const PixelCount& count : nonfinite) added.nonfinite.add(count);
   return added;
 }
 

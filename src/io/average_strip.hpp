@@ -49,7 +49,8 @@ class AverageStrip : public Strip {
 
   /// Adds an image's samples, `units` times. Calls may run side by side, but for that of the first image,
   /// whose whole numbers the others' are compared with. Errors: kOutOfMemory.
-  Result<Added> add(const Strip& samples, exact::Wide units, bool first, const kernels::KernelTable& kernels);
+  Result<Added> add(const Strip& samples, exact::Wide units, std::size_t image,
+                    const kernels::KernelTable& kernels);
 
   /// The averages of a line of a plane, rounded to odd. Shape: averages [width].
   void averages(std::size_t plane, int line, double* averages) const;

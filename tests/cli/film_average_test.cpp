@@ -103,10 +103,8 @@ TEST_F(FilmAverage, SaysWhatIsWrongInOneLine) {
   expect_failure(itself, 2, in_[1] + ": input and output are the same file");
 
   test::Picture other = test::blank(12, 8);
-  test::write_scanlines(folder_ / "other.exr", [&]() -> test::Picture& {
-    test::add_rgb_noise(other, Imf::HALF);
-    return other;
-  }());
+  test::add_rgb_noise(other, Imf::HALF);
+  test::write_scanlines(folder_ / "other.exr", other);
   expect_failure(average({folder_ / "other.exr"}), 1, "is 12 x 8 pixels, but " + in_[0] + " is 12 x 7");
 }
 
@@ -125,17 +123,17 @@ TEST_F(FilmAverage, NonFiniteSamplesStopOrAreLeftOut) {
 TEST_F(FilmAverage, OpensNoMoreFilesThanItMay) {
   std::vector<std::string> arguments = {"film", "average", "-o", out_};
   for (int i = 0; i < 90; ++i) arguments.push_back(in_[static_cast<std::size_t>(i) % 3]);
-  const auto limit = [](rlim_t files) {
+  const auto at_most = [](rlim_t files) {
     return [files] {
       const rlimit limit = {files, files};
       return ::setrlimit(RLIMIT_NOFILE, &limit) == 0;
     };
   };
-  const auto outcome = run_tool(arguments, {.before = limit(40)});
+  const auto outcome = run_tool(arguments, {.before = at_most(40)});
   EXPECT_EQ(outcome.exit, 0) << outcome;
   EXPECT_EQ(test::read_picture(out_).at("R", 1, 1), 6);
   std::filesystem::remove(out_);
-  expect_failure(run_tool(arguments, {.before = limit(5)}), 1, "Too many open files");
+  expect_failure(run_tool(arguments, {.before = at_most(5)}), 1, "Too many open files");
 }
 
 TEST_F(FilmAverage, InterruptLeavesNothing) {

@@ -1,4 +1,6 @@
 // Images that make no average, what stops one, and what an average carries.
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include "tests/image/average_files.hpp"
@@ -80,6 +82,25 @@ TEST_F(AverageRefusals, ThatCannotBeAveragedAreErrors) {
   }
   expect_error({folder_ / "chroma.exr"}, kPlain, ErrorCode::kBadFile,
                {"chroma.exr: channel \"RY\" is subsampled 2 x 2"});
+}
+
+TEST_F(AverageRefusals, PartsAreCounted) {
+  test::Picture picture = render(0);
+  std::vector<Imf::Header> headers(2, picture.header);
+  for (std::size_t i = 0; i < 2; ++i) {
+    headers[i].setName(i == 0 ? "left" : "right");
+    headers[i].setType("scanlineimage");
+  }
+  {
+    Imf::MultiPartOutputFile file((folder_ / "parts.exr").c_str(), headers.data(), 2);
+    for (int i = 0; i < 2; ++i) {
+      Imf::OutputPart part(file, i);
+      part.setFrameBuffer(picture.frame_buffer());
+      part.writePixels(picture.height());
+    }
+  }
+  expect_error({write("a.exr", picture), folder_ / "parts.exr"}, kPlain, ErrorCode::kBadFile,
+               {"parts.exr: has 2 parts"});
 }
 
 TEST_F(AverageRefusals, CarryTheFirstOnesAttributesAndTheirOwn) {

@@ -121,7 +121,6 @@ TEST_F(AverageImages, OfTallOnesIsThatOfEveryLine) {
     test::Picture picture = test::blank(3, 1100);
     picture.add("Y", Imf::FLOAT, [=](int x, int y) { return value(i, x, y); });
     picture.header.compression() = i == 0 ? Imf::DWAB_COMPRESSION : Imf::PIZ_COMPRESSION;
-    picture.header.channels().insert("z", Imf::Channel(Imf::FLOAT));
     picture.add("z", Imf::FLOAT, [=](int x, int y) { return value(i, x, y); });
     if (i == 2) picture.planes.at("z").set(picture.index(2, 1050), kNan);
     inputs.push_back(write("t" + std::to_string(i) + ".exr", picture));
@@ -155,6 +154,17 @@ TEST_F(AverageImages, KeepsTheWidestTypeOrTheOneAskedFor) {
   options.stored = PixelType::kFloat;
   EXPECT_EQ(average({mixed[0]}, options).planes.at("R").type, Imf::FLOAT);
 
+  // Just above the middle of two halves, by less than a float can tell.
+  test::Picture middle = test::blank(1, 1);
+  middle.add("Y", Imf::FLOAT, [](int, int) { return 1 + 0x1p-11; });
+  test::Picture above = test::blank(1, 1);
+  above.add("Y", Imf::FLOAT, [](int, int) { return 1 + 0x1p-11 + 0x1p-23; });
+  options = weighted({1000, 1});
+  options.stored = PixelType::kHalf;
+  const std::vector<std::string> two = {write("middle.exr", middle), write("above.exr", above)};
+  EXPECT_EQ(average(two, options).at("Y", 0, 0), 1 + 0x1p-10);
+
+  options = {};
   test::Picture large = test::blank(4, 1);
   large.add("Y", Imf::FLOAT, [](int x, int) { return x == 1 ? 70000 : x == 2 ? -1e9 : 1; });
   options.stored = PixelType::kHalf;

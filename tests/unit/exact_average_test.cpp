@@ -119,6 +119,41 @@ TEST(ExactAverage, IsTheExactOneRoundedOnce) {
   }
 }
 
+/// The quotient has the fewest bits then, and what remains of the division decides many roundings.
+TEST(ExactAverage, IsRoundedOnceUnderTheLargestWeightsToo) {
+  std::mt19937_64 random(17);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const auto heavy = static_cast<double>((1ULL << 36) + random() % (1ULL << 35));
+    const auto light = static_cast<double>(1 + random() % 100000);
+    const auto a = static_cast<float>((1U << 23) + random() % (1U << 23));
+    const auto b = static_cast<float>((1U << 23) + random() % (1U << 23));
+    const float out = average({a, b}, {heavy, light});
+    const long double exact = (static_cast<long double>(a) * heavy + static_cast<long double>(b) * light) /
+                              (static_cast<long double>(heavy) + light);
+    const long double error = std::fabs(out - exact);
+    ASSERT_LE(error, std::fabs(std::nextafter(out, kInfinity) - exact)) << trial;
+    ASSERT_LE(error, std::fabs(std::nextafter(out, -kInfinity) - exact)) << trial;
+  }
+}
+
+TEST(ExactAverage, HasRoomForEveryTotal) {
+  for (int bits_of_total = 2; bits_of_total <= 53; ++bits_of_total) {
+    const exact::Weights w = whole({std::ldexp(1.0, bits_of_total) - 2, 1});
+    for (const bool halves : {false, true}) {
+      for (const float v : {65504.0F, -65504.0F, 0x1p-24F}) {
+        EXPECT_EQ(average(exact::depth_for(halves, w), {v, v}, w), static_cast<double>(v)) << bits_of_total;
+      }
+    }
+    for (const float v : {3.4028235e38F, -3.4028235e38F, 1e-45F}) {
+      EXPECT_EQ(average(exact::depth_for(false, w), {v, v}, w), static_cast<double>(v)) << bits_of_total;
+    }
+  }
+  const exact::Weights w = whole({0x1p99, 1});
+  EXPECT_EQ(average(exact::depth_for(false, w), {-3.4028235e38F, -3.4028235e38F}, w),
+            static_cast<double>(-3.4028235e38F));
+  EXPECT_FALSE(exact::whole_weights(std::vector<double>{0x1p100, 1}));
+}
+
 TEST(ExactAverage, GoesHalfwayToTheEvenNeighbour) {
   const float ulp = 0x1p-23F;
   EXPECT_EQ(average({1, 1 + ulp}), 1);
