@@ -216,7 +216,8 @@ Result<Weights> whole_weights(std::span<const double> weights) {
     if (bit_width(out.total) > kWideBits) return apart;
   }
   out.sum = std::ldexp(static_cast<double>(out.total), grid);
-  if (!std::isfinite(out.sum)) return make_error(ErrorCode::kBadArgument, "the weights' sum is beyond double");
+  if (!std::isfinite(out.sum))
+    return make_error(ErrorCode::kBadArgument, "the weights' sum is beyond double");
   Wide divisor = 0;
   for (const Wide units : out.units) divisor = common_divisor(divisor, units);
   for (Wide& units : out.units) units /= divisor;
