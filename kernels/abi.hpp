@@ -103,6 +103,83 @@ struct WavelengthDensity {
   double peak;                         ///< visible: density at the centre
 };
 
+// Film. A pixel's sum is a whole number of steps of a grid, in two or four limbs of 64 bits that each hold up
+// to 2^43 steps of the next one a contribution: rounding to a multiple of a limb's step is adding and
+// subtracting 1.5 * 2^52 steps, and the sum's bits less that number's are the count of steps.
+
+/// log2 of pixels along a tile's side; a tile is square.
+inline constexpr int kFilmTileLog2 = 4;
+inline constexpr std::size_t kFilmTilePixels = std::size_t{1} << (2 * kFilmTileLog2);
+
+/// Why a sample does not reach a pixel; of several the least counts.
+enum FilmReason : std::int32_t {
+  kFilmAccepted = 0,
+  kFilmNan = 1,
+  kFilmInfinite = 2,
+  kFilmNegative = 3,
+  kFilmOutside = 4,
+  kFilmBeyondRange = 5,
+  kFilmReasons = 6,
+};
+
+/// Three curves at every nanometre, side by side: rows [intervals + 2][8], 32-byte aligned, of the values of
+/// the three and a 0, then the differences to the next ones and a 0; those of the last value are 0, and so is
+/// all of the row behind it.
+struct FilmCurves {
+  const float* rows = nullptr;
+  float first_nm = 0;
+  std::int32_t intervals = 0;
+};
+
+/// What a contribution is held to.
+struct FilmLimits {
+  float maximum;       ///< a colour's largest component; infinite for no limit
+  float range;         ///< of weight * colour
+  float weight_range;  ///< of weights
+};
+
+/// 1.5 * 2^52 steps of the two limbs, for each component of a quad.
+struct FilmGrid {
+  double coarse[4];
+  double rest[4];
+};
+
+/// The same for the four limbs of the sum of w y^2, and the two of that of w^2.
+struct FilmMomentGrid {
+  double luminance[4];
+  double weight[2];
+};
+
+/// Where samples go: entry i adds sample[i] (i where that is null), times factor[i] (where there are any), to
+/// the pixel address[i] = (tile << (2 * kFilmTileLog2)) | pixel; none where that is below 0.
+struct FilmEntries {
+  const std::uint32_t* sample = nullptr;
+  const std::int32_t* address = nullptr;
+  const float* factor = nullptr;
+  std::size_t count = 0;
+  std::int32_t tile = -1;  ///< the tile that all of them are in, or -1
+};
+
+/// The pixels of a film's crop window; `origin` is that of its first tile.
+struct FilmWindow {
+  float x0, y0, x1, y1;
+  std::int32_t origin_x, origin_y;
+  std::int32_t tiles_x;
+  bool negative_weights;
+};
+
+/// Bands that wavelengths fall into: edges in ascending order, searched for as in KnotTable; from edge i on
+/// lies band[i], -1 for none.
+struct BucketTable {
+  const float* edges = nullptr;  ///< [count + 2^halvings], infinities from count on
+  const std::int32_t* band = nullptr;
+  std::int32_t count = 0;
+  const std::int32_t* start = nullptr;
+  float buckets_per_nm = 0;
+  std::int32_t buckets = 0;
+  std::int32_t halvings = 0;
+};
+
 /// One instruction set's kernels.
 struct KernelTable {
   const char* name;
@@ -240,6 +317,64 @@ struct KernelTable {
   void (*project_wavelengths)(float* const dst[3], const float* const* values, const float* const* lambda_nm,
                               const float* const* density, const EvenTable curves[3], float factor,
                               std::size_t count, std::size_t n) noexcept;
+
+  // Film. Samples n a multiple of kLanes, at any address; a quad is four floats of one sample, side by side.
+  // What a sample's quads are is not specified where its reason is not 0.
+  /// quads[4 i ..]: (w X, w Y, w Z, w) of sample i, with X, Y, Z = ((sum over k of value * ratio_k) + (sum
+  /// over k of difference * (part * ratio_k))) * factor, of the row that holds the wavelength and its part of
+  /// the way to the next one, or the row of zeros; ratio_k = radiance_k / density_k, 0 where the density is
+  /// 0; where the largest magnitude m of the three is above limits.maximum, times
+  /// maximum / m; then times w = weight (1 where that is null). luminance[i] (where not null): Y before w.
+  /// reasons[i]: of the density that is not 0 and what goes with it NaN, infinite or negative, else
+  /// kFilmBeyondRange for a component, or a luminance asked for, beyond limits.range, or w beyond
+  /// limits.weight_range, else 0.
+  void (*film_weigh_wavelengths)(float* quads, float* luminance, std::int32_t* reasons,
+                                 const FilmCurves& curves, const FilmLimits& limits,
+                                 const float* const* radiance, const float* const* lambda_nm,
+                                 const float* const* density, const float* weight, float factor,
+                                 std::size_t count, std::size_t n) noexcept;
+  /// the same for X, Y, Z = sums over bands of weights[band] * radiance_band; weights [bands][4]
+  void (*film_weigh_bands)(float* quads, float* luminance, std::int32_t* reasons, const float* weights,
+                           const FilmLimits& limits, const float* const* radiance, const float* weight,
+                           std::size_t bands, std::size_t n) noexcept;
+  /// quads[i * stride + b] = radiance_b * u for b < bands, 0 up to a multiple of 4, with u = w * (maximum /
+  /// m), or w where the largest magnitude m of the radiances is not above limits.maximum. reasons[i] becomes
+  /// kFilmBeyondRange where it was 0 and a product is beyond limits.range.
+  void (*film_band_quads)(float* quads, std::size_t stride, std::int32_t* reasons, const FilmLimits& limits,
+                          const float* const* radiance, const float* weight, std::size_t bands,
+                          std::size_t n) noexcept;
+  /// band[k][i]: that which wavelength k falls into, or -1, also where its density is 0; hits[2 * (k * n +
+  /// i)]: radiance_k * u and u = (w * (reference / density_k)), the radiance times maximum / m where the
+  /// largest magnitude m of those with a density is above limits.maximum. reasons[i] becomes kFilmBeyondRange
+  /// where it was 0 and one of them is beyond its range.
+  void (*film_hits)(std::int32_t* band, float* hits, std::int32_t* reasons, const BucketTable& table,
+                    const FilmLimits& limits, const float* const* radiance, const float* const* lambda_nm,
+                    const float* const* density, const float* weight, float reference, std::size_t count,
+                    std::size_t n) noexcept;
+  /// address[i] of the pixel that (x, y) lies in, or minus the reason: reasons[i], or for position and weight
+  /// NaN, infinite, weight below 0 (unless allowed), outside the window; adds to counts[reason] for i < n
+  /// alone, whatever n. Arrays readable and writable up to n rounded up to kLanes; addresses there are not
+  /// specified.
+  void (*film_place)(std::int32_t* address, std::uint64_t counts[kFilmReasons], const FilmWindow& window,
+                     const float* x, const float* y, const float* weight, const std::int32_t* reasons,
+                     std::size_t n) noexcept;
+  /// adds `count` quads from quads[4 * count * sample] on to the pixel's limbs, for each quad 4 coarse ones
+  /// and 4 rests, at tiles[tile] + offset + pixel * limbs, 64-byte aligned
+  void (*film_add)(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
+                   const FilmEntries& entries, const float* quads, std::size_t count,
+                   std::size_t limbs) noexcept;
+  /// adds the hits of each sample (see film_hits, n samples) to its pixel's bands: coarse value, coarse
+  /// weight, rest, rest, at tiles[tile] + offset + (pixel * bands + band) * 4. The grid's first two
+  /// components are those of values and weights.
+  void (*film_add_hits)(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
+                        const FilmEntries& entries, const std::int32_t* band, const float* hits,
+                        std::size_t count, std::size_t n, std::size_t bands) noexcept;
+  /// at tiles[tile] + offset + pixel * 8 adds: four limbs of (w * (y * y)), in double; two of w * w; 1; with
+  /// w = quads[4 * sample + 3] * factor
+  void (*film_add_moments)(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
+                           const FilmEntries& entries, const float* quads, const float* luminance) noexcept;
+  /// adds 1 at tiles[tile] + offset + pixel
+  void (*film_count)(std::int64_t* const* tiles, std::size_t offset, const FilmEntries& entries) noexcept;
 
   // Gamut.
   /// moves colours with a component outside [lowest, highest] along the line to the grey of their luminance

@@ -3,6 +3,8 @@
 #include "kernels/colorimetry.inl"
 #include "kernels/convert.inl"
 #include "kernels/exponential.inl"
+#include "kernels/film_add.inl"
+#include "kernels/film_weigh.inl"
 #include "kernels/gamut.inl"
 #include "kernels/sigmoid.inl"
 #include "kernels/sigmoid_reach.inl"
@@ -70,6 +72,15 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .even_wavelengths = even_wavelengths,
     .visible_wavelengths = visible_wavelengths,
     .project_wavelengths = project_wavelengths,
+    .film_weigh_wavelengths = film_weigh_wavelengths,
+    .film_weigh_bands = film_weigh_bands,
+    .film_band_quads = film_band_quads,
+    .film_hits = film_hits,
+    .film_place = film_place,
+    .film_add = film_add,
+    .film_add_hits = film_add_hits,
+    .film_add_moments = film_add_moments,
+    .film_count = film_count,
     .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,

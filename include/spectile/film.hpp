@@ -111,7 +111,8 @@ struct FilmRejections {
   std::uint64_t infinite = 0;      ///< one of them is infinite
   std::uint64_t negative = 0;      ///< weight or a density below 0
   std::uint64_t outside = 0;       ///< no pixel of the crop window is reached
-  std::uint64_t beyond_range = 0;  ///< weight or a contribution beyond the film's range
+  std::uint64_t beyond_range = 0;  ///< weight or a contribution beyond the film's range, with variance also
+                                   ///< the luminance itself
   std::uint64_t total() const noexcept { return nan + infinite + negative + outside + beyond_range; }
   friend bool operator==(const FilmRejections&, const FilmRejections&) = default;
 };
@@ -134,7 +135,7 @@ struct FilmAccess;
 /// The film. add(), develop and stats may be called from any threads at once.
 class Film {
  public:
-  /// Errors: kBadArgument for a size that is not 1 to 2^18 a side and 2^31 - 1 pixels in all, an empty crop
+  /// Errors: kBadArgument for a size that is not 1 to 2^18 a side and 2^31 pixels in all (those of whole tiles), an empty crop
   /// or one beyond the film, nothing to keep, a range or maximum outside what the options say, bands that no
   /// observer sees (for XYZ of band input); kOutOfMemory.
   static Result<Film> create(const FilmOptions& options);

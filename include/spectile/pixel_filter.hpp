@@ -1,6 +1,7 @@
 // PixelFilter: how a sample's distance from a pixel's centre weighs it there.
 #pragma once
 
+#include <memory>
 #include <spectile/result.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ struct FilterSample {
   double weight = 1;  ///< filter over density, relative to the mean: 1 without lobes below 0, else plus or
                       ///< minus the integral of the magnitude over the integral
 };
+
+struct FilterAccess;
 
 /// An even, separable pixel filter of any radius, 1 at its centre. Units: pixels.
 class PixelFilter {
@@ -35,14 +38,18 @@ class PixelFilter {
                                       double c = 1.0 / 3);
   /// sinc(d) * sinc(d / tau) with sinc(x) = sin(pi x) / (pi x): tau is how many cycles its window holds.
   static Result<PixelFilter> lanczos(double radius_x = 4, double radius_y = 4, double tau = 3);
-  // Errors of all: kBadArgument for a radius that is not from 0.01 to kMaxRadius, a sigma or tau that is not
-  // above 0 and finite, a Mitchell filter that is not above 0 at its centre.
+  // Errors of all: kBadArgument for a radius that is not from kMinRadius to kMaxRadius, a sigma that is not
+  // above 0 and finite, a tau that is not from kMinTau on and finite, a Mitchell filter whose parameters are
+  // not finite or that is not above 0 at its centre, a filter whose integral is not.
 
   /// Reads "NAME", "NAME:RADIUS" or "NAME:RADIUS_XxRADIUS_Y", then the other parameters, colons between:
   /// "gaussian:1.5:0.5", "mitchell:2x2:0.333:0.333". Errors: kUnknownName, listing the names; kBadArgument.
   static Result<PixelFilter> parse(std::string_view text);
 
+  static constexpr double kMinRadius = 0.01;
   static constexpr double kMaxRadius = 64;
+  /// Below it a window holds more lobes than are of use to anybody.
+  static constexpr double kMinTau = 0.01;
 
   FilterKind kind() const noexcept { return kind_; }
   double radius_x() const noexcept { return radius_x_; }
@@ -60,16 +67,25 @@ class PixelFilter {
   FilterSample sample(double u, double v) const noexcept;
   /// As parse() reads it, every parameter exact.
   std::string to_text() const;
-  friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
+  friend bool operator==(const PixelFilter& a, const PixelFilter& b) noexcept {
+    return a.kind_ == b.kind_ && a.radius_x_ == b.radius_x_ && a.radius_y_ == b.radius_y_ &&
+           a.first_ == b.first_ && a.second_ == b.second_;
+  }
 
  private:
-  static Result<PixelFilter> checked(const PixelFilter& filter);
+  friend struct FilterAccess;
+  struct Table;
+  /// The filter with what follows from its parameters, or what is wrong with them.
+  static Result<PixelFilter> finished(PixelFilter filter);
   double profile(double d, double radius) const noexcept;
   FilterKind kind_ = FilterKind::kBox;
   double radius_x_ = 0.5;
   double radius_y_ = 0.5;
-  double first_ = 0;   ///< sigma, b or tau
-  double second_ = 0;  ///< c
+  double first_ = 0;      ///< sigma, b or tau
+  double second_ = 0;     ///< c
+  double integral_ = 1;   ///< over the plane
+  double magnitude_ = 1;  ///< integral of the magnitude over that, for lobes below 0
+  std::shared_ptr<const Table> table_x_, table_y_;  ///< to draw from; none where there is a closed form
 };
 
 }  // namespace spectile

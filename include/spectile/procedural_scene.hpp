@@ -38,7 +38,9 @@ class SceneBatch {
   SceneBatch() = default;
   FloatBuffer x_, y_, weight_;
   FloatBuffer radiance_, lambda_, density_;
-  std::size_t capacity_ = 0, size_ = 0, rows_ = 0;
+  std::size_t capacity_ = 0, size_ = 0, rows_ = 0, stride_ = 0;
+  bool wavelengths_ = false;
+  bool weighted_ = false;  ///< else all weights are 1 and none are handed out
 };
 
 /// A scene: axis-aligned rectangles of the unit square over one another, each of a spectrum times a product

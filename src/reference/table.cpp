@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "src/reference/arithmetic.hpp"
+#include "src/reference/film.hpp"
 #include "src/reference/half.hpp"
 #include "src/reference/sigmoid.hpp"
 #include "src/reference/smits.hpp"
@@ -176,6 +177,15 @@ const kernels::KernelTable table = {
     .even_wavelengths = even_wavelengths,
     .visible_wavelengths = visible_wavelengths,
     .project_wavelengths = project_wavelengths,
+    .film_weigh_wavelengths = film_weigh_wavelengths,
+    .film_weigh_bands = film_weigh_bands,
+    .film_band_quads = film_band_quads,
+    .film_hits = film_hits,
+    .film_place = film_place,
+    .film_add = film_add,
+    .film_add_hits = film_add_hits,
+    .film_add_moments = film_add_moments,
+    .film_count = film_count,
     .limit_gamut = limit_gamut,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,

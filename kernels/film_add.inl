@@ -1,0 +1,150 @@
+// Film contributions to their pixels: placing samples, and adding to the limbs of exact sums.
+#pragma once
+
+#include "kernels/film_weigh.inl"
+#include "kernels/simd.hpp"
+#include "kernels/simd_quads.hpp"
+
+namespace spectile::kernels {
+namespace {
+
+/// Entries ahead of the one being added whose pixels are fetched: a few hundred cycles of work.
+inline constexpr std::size_t kFilmAhead = 16;
+
+void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const FilmWindow& window,
+                const float* x, const float* y, const float* weight, const std::int32_t* reasons,
+                std::size_t n) noexcept {
+  const F32 zero(0.0F);
+  const F32 x0(window.x0);
+  const F32 y0(window.y0);
+  const I32 inner((1 << kFilmTileLog2) - 1);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 px = load_any(x + i);
+    const F32 py = load_any(y + i);
+    const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
+    const Mask inside = (px >= x0) & (px < F32(window.x1)) & (py >= y0) & (py < F32(window.y1));
+    const I32 column = xsimd::to_int(xsimd::select(inside, px, x0)) - I32(window.origin_x);
+    const I32 row = xsimd::to_int(xsimd::select(inside, py, y0)) - I32(window.origin_y);
+    const I32 tile = (row >> kFilmTileLog2) * I32(window.tiles_x) + (column >> kFilmTileLog2);
+    const I32 pixel = ((row & inner) << kFilmTileLog2) | (column & inner);
+    ((tile << (2 * kFilmTileLog2)) | pixel).store_unaligned(address + i);
+    Mask good = inside & ((((px + py) + w) * zero) == zero);
+    if (!window.negative_weights) good = good & (w >= zero);
+    const I32 why = I32::load_unaligned(reasons + i);
+    const std::uint64_t fine = lane_bits(good & (xsimd::to_float(why) == zero));
+    const std::size_t lanes = n - i < kWidth ? n - i : kWidth;
+    if (lanes == kWidth && fine == (std::uint64_t{1} << kWidth) - 1) {
+      counts[kFilmAccepted] += kWidth;
+      continue;
+    }
+    for (std::size_t lane = i; lane < i + lanes; ++lane) {
+      const float lane_weight = weight == nullptr ? 1.0F : weight[lane];
+      Faults faults;
+      faults.look_at(x[lane]);
+      faults.look_at(y[lane]);
+      faults.look_at(lane_weight);
+      faults.negative = lane_weight < 0.0F && !window.negative_weights;
+      std::int32_t reason = faults.reason();
+      const bool within =
+          x[lane] >= window.x0 && x[lane] < window.x1 && y[lane] >= window.y0 && y[lane] < window.y1;
+      if (reason == kFilmAccepted && !within) reason = kFilmOutside;
+      const std::int32_t known = reasons[lane];
+      if (known != kFilmAccepted && (reason == kFilmAccepted || known < reason)) reason = known;
+      ++counts[reason];
+      if (reason != kFilmAccepted) address[lane] = -reason;
+    }
+  }
+}
+
+/// Calls add(sample, factor, pixel's place) for each entry; `per_pixel` limbs lie in a pixel. A run within
+/// one tile need not look for it again.
+template <class Add>
+inline void for_entries(std::int64_t* const* tiles, std::size_t offset, std::size_t per_pixel,
+                        const FilmEntries& entries, Add add) noexcept {
+  const auto call = [&](std::size_t i, std::int64_t* pixel) {
+    add(entries.sample == nullptr ? i : entries.sample[i],
+        entries.factor == nullptr ? 1.0F : entries.factor[i], pixel);
+  };
+  if (entries.tile >= 0) {
+    std::int64_t* const tile = tiles[entries.tile] + offset;
+    for (std::size_t i = 0; i < entries.count; ++i) {
+      if (entries.address[i] < 0) continue;
+      call(i, tile + (static_cast<std::size_t>(entries.address[i]) % kFilmTilePixels) * per_pixel);
+    }
+    return;
+  }
+  const auto place = [&](std::int32_t address) {
+    const auto at = static_cast<std::size_t>(address);
+    return tiles[at / kFilmTilePixels] + offset + (at % kFilmTilePixels) * per_pixel;
+  };
+  for (std::size_t i = 0; i < entries.count; ++i) {
+    if (i + kFilmAhead < entries.count && entries.address[i + kFilmAhead] >= 0) {
+      prefetch(place(entries.address[i + kFilmAhead]));
+    }
+    if (entries.address[i] >= 0) call(i, place(entries.address[i]));
+  }
+}
+
+void film_add(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
+              const FilmEntries& entries, const float* quads, std::size_t count, std::size_t limbs) noexcept {
+  const QuadGrid magic(grid);
+  if (entries.factor == nullptr && count == 1) {
+    for_entries(tiles, offset, limbs, entries, [&](std::size_t sample, float, std::int64_t* pixel) {
+      add_quad(pixel, quad_load(quads + 4 * sample), magic);
+    });
+    return;
+  }
+  for_entries(tiles, offset, limbs, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+    const Quad factors = quad_all(factor);
+    for (std::size_t q = 0; q < count; ++q) {
+      add_quad(pixel + 8 * q, quad_multiply(quad_load(quads + 4 * (sample * count + q)), factors), magic);
+    }
+  });
+}
+
+void film_add_hits(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
+                   const FilmEntries& entries, const std::int32_t* band, const float* hits, std::size_t count,
+                   std::size_t n, std::size_t bands) noexcept {
+  const Double2 coarse = double2_load(grid.coarse);
+  const Double2 rest = double2_load(grid.rest);
+  for_entries(tiles, offset, 4 * bands, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = k * n + sample;
+      if (band[at] < 0) continue;
+      std::int64_t* const limbs = pixel + 4 * static_cast<std::size_t>(band[at]);
+      const Quad hit = quad_multiply(pair_load(hits + 2 * at), quad_all(factor));
+      add_pair(limbs, limbs + 2, widen_first(hit), coarse, rest);
+    }
+  });
+}
+
+/// Adds v to a limb, of which `magic` is 1.5 * 2^52 steps. Returns what is left of it.
+inline double add_limb(std::int64_t& limb, double v, double magic) noexcept {
+  const double sum = v + magic;
+  std::int64_t bits = 0;
+  std::int64_t magic_bits = 0;
+  std::memcpy(&bits, &sum, sizeof bits);
+  std::memcpy(&magic_bits, &magic, sizeof magic_bits);
+  limb += bits - magic_bits;
+  return v - (sum - magic);
+}
+
+void film_add_moments(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
+                      const FilmEntries& entries, const float* quads, const float* luminance) noexcept {
+  for_entries(tiles, offset, 8, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+    const auto w = static_cast<double>(quads[4 * sample + 3] * factor);
+    const auto y = static_cast<double>(luminance[sample]);
+    double left = w * (y * y);
+    for (std::size_t k = 0; k < 4; ++k) left = add_limb(pixel[k], left, grid.luminance[k]);
+    left = w * w;
+    for (std::size_t k = 0; k < 2; ++k) left = add_limb(pixel[4 + k], left, grid.weight[k]);
+    ++pixel[6];
+  });
+}
+
+void film_count(std::int64_t* const* tiles, std::size_t offset, const FilmEntries& entries) noexcept {
+  for_entries(tiles, offset, 1, entries, [](std::size_t, float, std::int64_t* pixel) { ++*pixel; });
+}
+
+}  // namespace
+}  // namespace spectile::kernels

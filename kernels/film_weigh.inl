@@ -1,0 +1,325 @@
+// Film samples to what they contribute: colours as quads, bands as quads, hits of wavelengths in bands.
+#pragma once
+
+#include "kernels/simd.hpp"
+#include "kernels/simd_quads.hpp"
+#include "kernels/simd_tables.hpp"
+
+namespace spectile::kernels {
+namespace {
+
+inline constexpr std::size_t kMostFilmWavelengths = 64;
+
+inline float magnitude(float v) noexcept {
+  return v < 0.0F ? -v : v;
+}
+
+/// What is wrong with a number and its density, for the few lanes where something may be.
+struct Faults {
+  bool nan = false;
+  bool infinite = false;
+  bool negative = false;
+  void look_at(float v) noexcept {
+    nan = nan || v != v;
+    infinite = infinite || (v == v && v - v != 0.0F);
+  }
+  std::int32_t reason() const noexcept {
+    return nan ? kFilmNan : infinite ? kFilmInfinite : negative ? kFilmNegative : kFilmAccepted;
+  }
+};
+
+/// Clamps colours, weighs them and finds those beyond the film's range: a register of quads at a time.
+class Weighing {
+ public:
+  Weighing(const FilmLimits& limits, float* quads, float* luminance, const float* weight)
+      : quads_(quads),
+        luminance_(luminance),
+        weight_(weight),
+        clamps_(limits.maximum - limits.maximum == 0.0F),
+        maximum_(limits.maximum),
+        range_(limits.range),
+        limit_(xsimd::select(last_of_quads(), F32(limits.weight_range), F32(limits.range))) {}
+
+  /// The colours of kQuads samples from i on, their last components whatever they are.
+  void put(std::size_t i, F32 color) noexcept {
+    if (clamps_) {
+      const F32 most = largest_of_three(xsimd::abs(color));
+      color = xsimd::select(most > maximum_, color * (maximum_ / most), color);
+    }
+    if (luminance_ != nullptr) put_luminance(i, color);
+    F32 weighed = xsimd::select(last_of_quads(), F32(1.0F), color);
+    if (weight_ != nullptr) weighed = weighed * spread_over_quads(weight_ + i);
+    beyond_ = beyond_ | ~(xsimd::abs(weighed) <= limit_);
+    store_any(quads_ + 4 * i, weighed);
+  }
+
+  /// Reasons of the lanes put since the last time, where they have none yet.
+  void find_beyond(std::int32_t* reasons, std::size_t first, std::size_t lanes) noexcept {
+    if (lane_bits(beyond_) == 0) return;
+    beyond_ = F32(0.0F) > F32(0.0F);
+    for (std::size_t i = first; i < first + lanes; i += kQuads) {
+      std::uint64_t bits = lane_bits(~(xsimd::abs(load_any(quads_ + 4 * i)) <= limit_));
+      for (std::size_t q = 0; q < kQuads; ++q, bits >>= 4) {
+        bool beyond = (bits & 15U) != 0;
+        if (luminance_ != nullptr) beyond = beyond || !(magnitude(luminance_[i + q]) <= range_);
+        if (beyond && reasons[i + q] == kFilmAccepted) reasons[i + q] = kFilmBeyondRange;
+      }
+    }
+  }
+
+ private:
+  void put_luminance(std::size_t i, F32 color) noexcept {
+    alignas(64) float c[kWidth];
+    store(c, color);
+    for (std::size_t q = 0; q < kQuads; ++q) luminance_[i + q] = c[4 * q + 1];
+    const Mask beyond = ~(xsimd::abs(color) <= F32(range_));
+    beyond_ = beyond_ | beyond;
+  }
+
+  float* quads_;
+  float* luminance_;
+  const float* weight_;
+  bool clamps_;
+  F32 maximum_;
+  float range_;
+  F32 limit_;
+  Mask beyond_ = F32(0.0F) > F32(0.0F);
+};
+
+inline std::int32_t fault_at(const float* const* radiance, const float* const* lambda_nm,
+                             const float* const* density, std::size_t count, std::size_t i) noexcept {
+  Faults faults;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float pdf = density[k][i];
+    if (pdf == 0.0F) continue;
+    faults.look_at(pdf);
+    faults.look_at(lambda_nm[k][i]);
+    faults.look_at(radiance[k][i] / pdf);
+    faults.negative = faults.negative || pdf < 0.0F;
+  }
+  return faults.reason();
+}
+
+/// `Count` wavelengths, or those of the argument where it is 0: a count known to the compiler keeps the loop
+/// over them in registers.
+template <std::size_t Count>
+inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurves& curves,
+                              const float* const* radiance, const float* const* lambda_nm,
+                              const float* const* density, float factor, std::size_t given,
+                              std::size_t n) noexcept {
+  constexpr std::size_t kRoom = Count == 0 ? kMostFilmWavelengths : Count;
+  const std::size_t count = Count == 0 ? given : Count;
+  alignas(64) std::int32_t row[kRoom][kWidth];
+  alignas(64) float ratio[kRoom][kWidth];
+  alignas(64) float part[kRoom][kWidth];
+  const F32 zero(0.0F);
+  const F32 intervals(static_cast<float>(curves.intervals));
+  const I32 beyond_curves(curves.intervals + 1);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    F32 everything = zero;
+    F32 least = zero;
+    for (std::size_t k = 0; k < count; ++k) {
+      const F32 lambda = load_any(lambda_nm[k] + i);
+      const F32 pdf = load_any(density[k] + i);
+      const F32 quotient = xsimd::select(pdf == zero, zero, load_any(radiance[k] + i) / pdf);
+      const F32 t = lambda - F32(curves.first_nm);
+      const Mask inside = (t >= zero) & (t <= intervals);
+      const F32 safe = xsimd::select(inside, t, zero);
+      const I32 interval = xsimd::to_int(safe);
+      const F32 rows = xsimd::select(inside, bits_as<float>(interval), bits_as<float>(beyond_curves));
+      (bits_as<std::int32_t>(rows) << 3).store_aligned(row[k]);
+      store(ratio[k], quotient);
+      store(part[k], (safe - xsimd::to_float(interval)) * quotient);
+      // Not finite where a number is not: which it is, is looked for below.
+      everything = everything + ((lambda + pdf) + quotient);
+      least = limit_above(least, pdf);
+    }
+    I32(0).store_unaligned(reasons + i);
+    if (lane_bits(differ(everything * zero, zero) | (least < zero)) != 0) {
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        reasons[i + lane] = fault_at(radiance, lambda_nm, density, count, i + lane);
+      }
+    }
+    for (std::size_t lane = 0; lane < kWidth; lane += kQuads) {
+      RowSums sums;
+      for (std::size_t k = 0; k < count; ++k) {
+        sums.add(curves.rows, row[k] + lane, ratio[k] + lane, part[k] + lane);
+      }
+      to.put(i + lane, sums.total() * F32(factor));
+    }
+    to.find_beyond(reasons, i, kWidth);
+  }
+}
+
+void film_weigh_wavelengths(float* quads, float* luminance, std::int32_t* reasons, const FilmCurves& curves,
+                            const FilmLimits& limits, const float* const* radiance,
+                            const float* const* lambda_nm, const float* const* density, const float* weight,
+                            float factor, std::size_t count, std::size_t n) noexcept {
+  Weighing to(limits, quads, luminance, weight);
+  switch (count) {
+    case 4:
+      return weigh_wavelengths<4>(to, reasons, curves, radiance, lambda_nm, density, factor, count, n);
+    case 8:
+      return weigh_wavelengths<8>(to, reasons, curves, radiance, lambda_nm, density, factor, count, n);
+    default:
+      return weigh_wavelengths<0>(to, reasons, curves, radiance, lambda_nm, density, factor, count, n);
+  }
+}
+
+void film_weigh_bands(float* quads, float* luminance, std::int32_t* reasons, const float* weights,
+                      const FilmLimits& limits, const float* const* radiance, const float* weight,
+                      std::size_t bands, std::size_t n) noexcept {
+  constexpr std::size_t kLanesAtOnce = kGroup * kWidth;
+  Weighing to(limits, quads, luminance, weight);
+  const F32 zero(0.0F);
+  alignas(64) float colors[3][kLanesAtOnce];
+  alignas(64) float turned[4 * kLanesAtOnce];
+  for (std::size_t i = 0; i < n; i += kLanesAtOnce) {
+    F32 sums[3][kGroup];
+    F32 strange = zero;
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t g = 0; g < kGroup; ++g) sums[c][g] = zero;
+    }
+    for (std::size_t first = 0; first < bands; first += kSumRun) {
+      const std::size_t end = first + kSumRun < bands ? first + kSumRun : bands;
+      F32 run[3][kGroup];
+      for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t g = 0; g < kGroup; ++g) run[c][g] = zero;
+      }
+      for (std::size_t b = first; b < end; ++b) {
+        for (std::size_t g = 0; g < kGroup; ++g) {
+          const F32 sample = load_any(radiance[b] + i + g * kWidth);
+          for (std::size_t c = 0; c < 3; ++c) run[c][g] = run[c][g] + F32(weights[4 * b + c]) * sample;
+          strange = strange + sample * zero;
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t g = 0; g < kGroup; ++g) sums[c][g] = sums[c][g] + run[c][g];
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t g = 0; g < kGroup; ++g) store(colors[c] + g * kWidth, sums[c][g]);
+    }
+    const bool look = lane_bits(differ(strange, zero)) != 0;
+    for (std::size_t lane = 0; lane < kLanesAtOnce; lane += 4) {
+      Quad color[4] = {quad_load(colors[0] + lane), quad_load(colors[1] + lane), quad_load(colors[2] + lane),
+                       quad_all(0.0F)};
+      quad_transpose(color[0], color[1], color[2], color[3]);
+      for (std::size_t j = 0; j < 4; ++j) {
+        Faults faults;
+        for (std::size_t b = 0; look && b < bands; ++b) faults.look_at(radiance[b][i + lane + j]);
+        reasons[i + lane + j] = faults.reason();
+        quad_store(turned + 4 * (lane + j), color[j]);
+      }
+    }
+    for (std::size_t lane = 0; lane < kLanesAtOnce; lane += kQuads) to.put(i + lane, load(turned + 4 * lane));
+    to.find_beyond(reasons, i, kLanesAtOnce);
+  }
+}
+
+void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, const FilmLimits& limits,
+                     const float* const* radiance, const float* weight, std::size_t bands,
+                     std::size_t n) noexcept {
+  const bool clamps = limits.maximum - limits.maximum == 0.0F;
+  const F32 maximum(limits.maximum);
+  const F32 range(limits.range);
+  alignas(64) float by[kWidth];
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    F32 most(0.0F);
+    for (std::size_t b = 0; b < bands; ++b) {
+      most = limit_below(most, xsimd::abs(load_any(radiance[b] + i)));
+    }
+    F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
+    // A product grows with its factors, so the largest one tells for all.
+    if (clamps) w = xsimd::select(most > maximum, w * (maximum / most), w);
+    const std::uint64_t beyond = lane_bits(~(xsimd::abs(most * w) <= range));
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const bool is = ((beyond >> lane) & 1U) != 0;
+      if (is && reasons[i + lane] == kFilmAccepted) reasons[i + lane] = kFilmBeyondRange;
+    }
+    store(by, w);
+    for (std::size_t lane = 0; lane < kWidth; lane += 4) {
+      float* const at = quads + (i + lane) * stride;
+      const Quad factors = quad_load(by + lane);
+      for (std::size_t b = 0; b < bands; b += 4) {
+        Quad row[4];
+        for (std::size_t j = 0; j < 4; ++j) {
+          row[j] =
+              b + j < bands ? quad_multiply(quad_load(radiance[b + j] + i + lane), factors) : quad_all(0.0F);
+        }
+        quad_transpose(row[0], row[1], row[2], row[3]);
+        for (std::size_t j = 0; j < 4; ++j) quad_store(at + j * stride + b, row[j]);
+      }
+    }
+  }
+}
+
+/// The band that each wavelength lies in, or -1.
+inline I32 bucket_of(const BucketTable& table, F32 lambda) noexcept {
+  const F32 first(table.edges[0]);
+  const F32 last(table.edges[table.count - 1]);
+  const Mask inside = (lambda >= first) & (lambda < last);
+  const F32 safe = xsimd::select(inside, lambda, first);
+  const F32 bucket =
+      limit_above(F32(static_cast<float>(table.buckets - 1)), (safe - first) * F32(table.buckets_per_nm));
+  I32 edge = gather(table.start, xsimd::to_int(bucket));
+  for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
+    const I32 next = edge + I32(step);
+    const Mask below = gather(table.edges, next) <= safe;
+    edge = bits_as<std::int32_t>(xsimd::select(below, bits_as<float>(next), bits_as<float>(edge)));
+  }
+  const I32 band = gather(table.band, edge);
+  return bits_as<std::int32_t>(xsimd::select(inside, bits_as<float>(band), bits_as<float>(I32(-1))));
+}
+
+void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const BucketTable& table,
+               const FilmLimits& limits, const float* const* radiance, const float* const* lambda_nm,
+               const float* const* density, const float* weight, float reference, std::size_t count,
+               std::size_t n) noexcept {
+  const bool clamps = limits.maximum - limits.maximum == 0.0F;
+  const F32 zero(0.0F);
+  const F32 maximum(limits.maximum);
+  alignas(64) float values[kWidth];
+  alignas(64) float weights[kWidth];
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
+    F32 scale(1.0F);
+    if (clamps) {
+      F32 most = zero;
+      for (std::size_t k = 0; k < count; ++k) {
+        const Mask dead = load_any(density[k] + i) == zero;
+        most = limit_below(most, xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))));
+      }
+      scale = xsimd::select(most > maximum, maximum / most, scale);
+    }
+    std::uint64_t beyond = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const F32 pdf = load_any(density[k] + i);
+      const Mask dead = pdf == zero;
+      const F32 u = w * (F32(reference) / pdf);
+      F32 radiant = load_any(radiance[k] + i);
+      if (clamps) radiant = radiant * scale;
+      const F32 value = radiant * u;
+      const I32 bucket = bucket_of(table, load_any(lambda_nm[k] + i));
+      bits_as<std::int32_t>(xsimd::select(dead, bits_as<float>(I32(-1)), bits_as<float>(bucket)))
+          .store_unaligned(band + k * n + i);
+      const Mask fits =
+          (xsimd::abs(value) <= F32(limits.range)) & (xsimd::abs(u) <= F32(limits.weight_range));
+      beyond |= lane_bits(~(fits | dead));
+      store(values, value);
+      store(weights, u);
+      float* const to = hits + 2 * (k * n + i);
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        to[2 * lane] = values[lane];
+        to[2 * lane + 1] = weights[lane];
+      }
+    }
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const bool is = ((beyond >> lane) & 1U) != 0;
+      if (is && reasons[i + lane] == kFilmAccepted) reasons[i + lane] = kFilmBeyondRange;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spectile::kernels

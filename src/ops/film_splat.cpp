@@ -1,0 +1,123 @@
+// Splatting: a sample becomes an entry for every pixel within the filter's radius.
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/errors.hpp"
+#include "src/ops/film_entries.hpp"
+
+namespace spectile {
+namespace {
+
+using kernels::FilmReason;
+using kernels::kFilmTilePixels;
+using State = FilmAccess::State;
+
+/// Samples that become entries at once, so that the entries of wide filters stay in the caches.
+constexpr std::size_t kPart = 256;
+static_assert(kPart % kernels::kLanes == 0);
+
+/// A chunk's footprints along one axis: the first pixel of each sample, and the filter's profile from there.
+struct Axis {
+  const FilmProfile& profile;
+  const float* position;
+  int low, high;  ///< pixels of the window, the last exclusive
+  int* first;
+  float* weights;  ///< [most_pixels][kPart]
+
+  /// Pixels whose centres lie in (position - radius, position + radius]; 0 beyond.
+  void measure(const kernels::KernelTable& table, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const float start = position[i] - profile.reach;
+      // A position that is far away, or no number, is refused before its footprint is used.
+      first[i] = std::abs(start) < 0x1p24F ? static_cast<int>(std::floor(start)) + 1 : 0;
+    }
+    for (int j = 0; j < profile.most_pixels; ++j) {
+      float* const row = weights + static_cast<std::size_t>(j) * kPart;
+      for (std::size_t i = 0; i < n; ++i) {
+        const float distance = (static_cast<float>(first[i] + j) + 0.5F) - position[i];
+        // Beyond the table, and so 0, at and before the near end.
+        row[i] = distance <= -profile.radius ? 2 * profile.radius : std::abs(distance);
+      }
+      table.look_up_even(row, row, profile.table, kPart);
+    }
+  }
+  /// The sample's pixels within the window, counted from its first one.
+  int from(std::size_t i) const { return std::max(0, low - first[i]); }
+  int to(std::size_t i) const { return std::min(profile.most_pixels, high - first[i]); }
+};
+
+std::int32_t reason_of(const State& s, float x, float y, float w, std::int32_t known, bool reached) {
+  std::int32_t out = kernels::kFilmAccepted;
+  const auto found = [&](std::int32_t reason) {
+    if (out == kernels::kFilmAccepted || reason < out) out = reason;
+  };
+  if (known != kernels::kFilmAccepted) found(known);
+  if (std::isnan(x) || std::isnan(y) || std::isnan(w)) {
+    found(kernels::kFilmNan);
+  } else if (std::isinf(x) || std::isinf(y) || std::isinf(w)) {
+    found(kernels::kFilmInfinite);
+  } else {
+    if (w < 0 && !s.options.negative_weights) found(kernels::kFilmNegative);
+    if (!reached) found(kernels::kFilmOutside);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContributions& contributions,
+                   const float* x, const float* y, const float* weight, std::size_t n,
+                   std::array<std::uint64_t, kernels::kFilmReasons>& counts, FilmScratch& scratch) {
+  const auto columns = static_cast<std::size_t>(s.along_x.most_pixels);
+  const auto rows = static_cast<std::size_t>(s.along_y.most_pixels);
+  if (scratch.profiles.size() < (columns + rows) * kPart) {
+    auto memory = FloatBuffer::create((columns + rows) * kPart);
+    if (!memory) return memory.error();
+    scratch.profiles = *std::move(memory);
+    std::fill_n(scratch.profiles.data(), scratch.profiles.size(), 0.0F);
+  }
+  std::array<int, kPart> first_x{};
+  std::array<int, kPart> first_y{};
+  std::vector<std::uint32_t>& sample = scratch.sample;
+  std::vector<std::int32_t>& address = scratch.address;
+  std::vector<float>& factor = scratch.factor;
+  for (std::size_t start = 0; start < n; start += kPart) {
+    const std::size_t part = std::min(kPart, n - start);
+    Axis across{s.along_x, x + start, s.window.x0, s.window.x1, first_x.data(), scratch.profiles.data()};
+    Axis down{s.along_y,   y + start,      s.window.y0,
+              s.window.y1, first_y.data(), scratch.profiles.data() + columns * kPart};
+    across.measure(table, part);
+    down.measure(table, part);
+    sample.clear();
+    address.clear();
+    factor.clear();
+    for (std::size_t i = 0; i < part; ++i) {
+      const bool near = std::abs(x[start + i]) < 0x1p22F && std::abs(y[start + i]) < 0x1p22F;
+      const bool reached = near && across.from(i) < across.to(i) && down.from(i) < down.to(i);
+      const std::int32_t reason =
+          reason_of(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
+                    scratch.reasons[start + i], reached);
+      ++counts[static_cast<std::size_t>(reason)];
+      if (reason != kernels::kFilmAccepted) continue;
+      for (int r = down.from(i); r < down.to(i); ++r) {
+        const float by_row = down.weights[static_cast<std::size_t>(r) * kPart + i];
+        const int py = first_y[i] + r - s.kernel_window.origin_y;
+        for (int c = across.from(i); c < across.to(i); ++c) {
+          const float f = across.weights[static_cast<std::size_t>(c) * kPart + i] * by_row;
+          if (f == 0.0F) continue;
+          const int px = first_x[i] + c - s.kernel_window.origin_x;
+          const int tile = (py / kFilmTile) * s.tiles_x + px / kFilmTile;
+          sample.push_back(static_cast<std::uint32_t>(start + i));
+          address.push_back(tile * static_cast<int>(kFilmTilePixels) + (py % kFilmTile) * kFilmTile +
+                            px % kFilmTile);
+          factor.push_back(f);
+        }
+      }
+    }
+    SPECTILE_TRY(add_entries(s, table, contributions,
+                             {sample.data(), address.data(), factor.data(), sample.size()}, scratch));
+  }
+  return {};
+}
+
+}  // namespace spectile
