@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spectile/arithmetic.hpp>
+#include <spectile/average.hpp>
 #include <spectile/bands.hpp>
 #include <spectile/color_difference.hpp>
 #include <spectile/colorimetry.hpp>

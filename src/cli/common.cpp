@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <set>
 
 namespace spectile::cli {
@@ -250,6 +251,11 @@ std::string size_text(std::uint64_t bytes) {
   std::size_t unit = 0;
   for (; value >= 1000 && unit + 1 < std::size(kUnits); ++unit) value /= 1000;
   return fmt::format("{:.3g} {}", value, kUnits[unit]);
+}
+
+ProgressFunction progress_bar(const std::string& label, bool enabled) {
+  const auto bar = std::make_shared<ProgressBar>(label, enabled);
+  return [bar](const Progress& progress) { return bar->update(progress); };
 }
 
 bool interrupted() {

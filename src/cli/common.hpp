@@ -73,6 +73,9 @@ std::vector<std::string> plot_columns(std::span<const double> values, int rows, 
 /// Lines that draw values over wavelengths, 60 columns wide and 10 rows high.
 std::vector<std::string> plot(std::span<const float> values, const Bands& bands);
 
+/// Draws a bar on stderr, cleared when the last copy of the function is gone, and stops at signals.
+ProgressFunction progress_bar(const std::string& label, bool enabled);
+
 /// True once SIGINT or SIGTERM has come.
 bool interrupted();
 /// Makes SIGINT and SIGTERM end conversions cleanly.
@@ -87,5 +90,9 @@ void add_project(CLI::App& app, int& exit);
 void add_info(CLI::App& app, int& exit);
 void add_verify(CLI::App& app, int& exit);
 void add_spectra(CLI::App& app, int& exit);
+void add_film(CLI::App& app, int& exit);
+
+// Each adds its subcommand to "film".
+void add_film_average(CLI::App& film, int& exit);
 
 }  // namespace spectile::cli

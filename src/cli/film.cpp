@@ -1,0 +1,13 @@
+// spectile film: the group of subcommands for films.
+#include "src/cli/common.hpp"
+
+namespace spectile::cli {
+
+void add_film(CLI::App& app, int& exit) {
+  CLI::App* film =
+      app.add_subcommand("film", "Films: merge, develop and simulate partial films; average renders");
+  film->require_subcommand(1);
+  add_film_average(*film, exit);
+}
+
+}  // namespace spectile::cli
