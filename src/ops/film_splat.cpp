@@ -92,14 +92,9 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
     address.clear();
     factor.clear();
     for (std::size_t i = 0; i < part; ++i) {
+      const std::size_t before = sample.size();
       const bool near = std::abs(x[start + i]) < 0x1p22F && std::abs(y[start + i]) < 0x1p22F;
-      const bool reached = near && across.from(i) < across.to(i) && down.from(i) < down.to(i);
-      const std::int32_t reason =
-          reason_of(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
-                    scratch.reasons[start + i], reached);
-      ++counts[static_cast<std::size_t>(reason)];
-      if (reason != kernels::kFilmAccepted) continue;
-      for (int r = down.from(i); r < down.to(i); ++r) {
+      for (int r = down.from(i); near && r < down.to(i); ++r) {
         const float by_row = down.weights[static_cast<std::size_t>(r) * kPart + i];
         const int py = first_y[i] + r - s.kernel_window.origin_y;
         for (int c = across.from(i); c < across.to(i); ++c) {
@@ -113,6 +108,14 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
           factor.push_back(f);
         }
       }
+      const std::int32_t reason =
+          reason_of(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
+                    scratch.reasons[start + i], sample.size() > before);
+      ++counts[static_cast<std::size_t>(reason)];
+      if (reason == kernels::kFilmAccepted) continue;
+      sample.resize(before);
+      address.resize(before);
+      factor.resize(before);
     }
     SPECTILE_TRY(add_entries(s, table, contributions,
                              {sample.data(), address.data(), factor.data(), sample.size()}, scratch));
