@@ -135,9 +135,9 @@ struct FilmAccess;
 /// The film. add(), develop and stats may be called from any threads at once.
 class Film {
  public:
-  /// Errors: kBadArgument for a size that is not 1 to 2^18 a side and 2^31 pixels in all (those of whole tiles), an empty crop
-  /// or one beyond the film, nothing to keep, a range or maximum outside what the options say, bands that no
-  /// observer sees (for XYZ of band input); kOutOfMemory.
+  /// Errors: kBadArgument for a size that is not 1 to 2^18 a side and 2^31 pixels in all (those of whole
+  /// tiles), an empty crop or one beyond the film, nothing to keep, a range or maximum outside what the
+  /// options say, bands that no observer sees (for XYZ of band input); kOutOfMemory.
   static Result<Film> create(const FilmOptions& options);
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;

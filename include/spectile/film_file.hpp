@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <spectile/film.hpp>
 #include <spectile/image.hpp>
+#include <spectile/procedural_scene.hpp>
 #include <string>
 
 namespace spectile {
@@ -38,5 +39,10 @@ Result<LoadedFilm> load_film(const std::string& path, int threads = 0);
 /// Errors: those of FilmDevelopment and of writing images.
 Result<ImageReport> write_developed(const Film& film, FilmLayer layer, std::size_t sensor,
                                     const std::string& path, const ImageOptions& options = {});
+
+/// Writes the exact XYZ of a scene's pixels (channels X, Y, Z) as a film of these options would come to.
+/// Errors: those of writing images.
+Result<ImageReport> write_scene(const ProceduralScene& scene, const FilmOptions& film,
+                                const std::string& path, const ImageOptions& options = {});
 
 }  // namespace spectile

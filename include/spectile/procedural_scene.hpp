@@ -85,4 +85,28 @@ class ProceduralScene {
   std::shared_ptr<const Parts> parts_;
 };
 
+/// Steps that drawing a scene into a film takes: some ten thousand samples each, in a fixed order, so that a
+/// run can stop between them and go on later.
+std::uint64_t simulation_steps(const FilmOptions& film, const SceneSampling& sampling);
+
+/// Draws `count` steps from the `first` on and adds them to the film, on several threads: whatever their
+/// number, the film is the same. Errors: those of draw() and Film::add(); kBadArgument for steps that there
+/// are not.
+Result<void> simulate(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
+                      std::uint64_t first, std::uint64_t count, const Execution& how = {});
+
+/// How far a film's developed XYZ is from the exact values, over the pixels of its window.
+struct SceneError {
+  double mean_luminance = 0;       ///< of the exact values
+  double rms_luminance = 0;        ///< root of the mean square of the differences in Y
+  double rms_xyz = 0;              ///< the same over all three
+  double largest_relative = 0;     ///< of Y, where the exact value is not 0
+  std::uint64_t black_pixels = 0;  ///< exactly 0 as they should be
+  std::uint64_t wrong_black = 0;   ///< that are not 0 and should be, or the other way round
+};
+
+/// Errors: those of FilmDevelopment::create() and update().
+Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
+                                    const Execution& how = {});
+
 }  // namespace spectile

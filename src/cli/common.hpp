@@ -94,5 +94,8 @@ void add_film(CLI::App& app, int& exit);
 
 // Each adds its subcommand to "film".
 void add_film_average(CLI::App& film, int& exit);
+void add_film_develop(CLI::App& film, int& exit);
+void add_film_merge(CLI::App& film, int& exit);
+void add_film_simulate(CLI::App& film, int& exit);
 
 }  // namespace spectile::cli

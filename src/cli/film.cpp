@@ -7,7 +7,10 @@ void add_film(CLI::App& app, int& exit) {
   CLI::App* film =
       app.add_subcommand("film", "Films: merge, develop and simulate partial films; average renders");
   film->require_subcommand(1);
+  add_film_merge(*film, exit);
+  add_film_develop(*film, exit);
   add_film_average(*film, exit);
+  add_film_simulate(*film, exit);
 }
 
 }  // namespace spectile::cli

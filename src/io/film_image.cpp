@@ -1,4 +1,4 @@
-// write_developed: a layer of a film as an image.
+// write_developed, write_scene: a layer of a film, or the exact values of a scene, as an image.
 #include <cstring>
 #include <spectile/film_file.hpp>
 
@@ -11,11 +11,19 @@
 namespace spectile {
 namespace {
 
-/// Lines of a development, floats or halves.
-class DevelopedJob : public io::LineJob {
+/// Planes of one picture.
+struct Picture {
+  const float* data = nullptr;
+  std::size_t planes = 0;
+  std::size_t width = 0;
+  std::size_t plane_floats = 0;
+};
+
+/// Lines of a picture, floats or halves.
+class PictureJob : public io::LineJob {
  public:
-  DevelopedJob(const FilmDevelopment& development, PixelType pixel, const kernels::KernelTable& kernels)
-      : development_(development), pixel_(pixel), kernels_(kernels) {}
+  PictureJob(const Picture& picture, PixelType pixel, const kernels::KernelTable& kernels)
+      : picture_(picture), pixel_(pixel), kernels_(kernels) {}
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
     writer_ = &writer;
@@ -35,12 +43,12 @@ class DevelopedJob : public io::LineJob {
   }
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& stats) override {
-    const auto width = static_cast<std::size_t>(development_.width());
+    const std::size_t width = picture_.width;
     float* const row = rows_[slot].data();
     auto* const halves = reinterpret_cast<std::uint16_t*>(row + padded());
-    for (std::size_t p = 0; p < development_.planes(); ++p) {
+    for (std::size_t p = 0; p < picture_.planes; ++p) {
       const float* const from =
-          development_.plane(p) + static_cast<std::size_t>(line) * development_.stride();
+          picture_.data + p * picture_.plane_floats + static_cast<std::size_t>(line) * width;
       if (pixel_ == PixelType::kFloat) {
         if (packed != nullptr) std::memcpy(packed + writer_->channel_offset(p), from, width * sizeof(float));
         continue;
@@ -58,10 +66,8 @@ class DevelopedJob : public io::LineJob {
   }
 
  private:
-  std::size_t padded() const {
-    return blocks_for(static_cast<std::size_t>(development_.width())) * kLanesPerBlock;
-  }
-  const FilmDevelopment& development_;
+  std::size_t padded() const { return blocks_for(picture_.width) * kLanesPerBlock; }
+  Picture picture_;
   PixelType pixel_;
   const kernels::KernelTable& kernels_;
   const io::ExrWriter* writer_ = nullptr;
@@ -101,43 +107,80 @@ std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, Pixe
   return out;
 }
 
-Result<ImageReport> write(const Film& film, FilmLayer layer, std::size_t sensor, const std::string& path,
-                          const ImageOptions& options) {
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
+                          const std::vector<io::ChannelSpec>& channels, const Texts& texts,
+                          const std::string& path, const ImageOptions& options) {
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
-  auto development = FilmDevelopment::create(film, layer, sensor);
-  if (!development) return development.error();
-  const auto updated = development->update({options.threads});
-  if (!updated) return updated.error();
-  const PixelWindow w = film.window();
-  const Imath::Box2i display({0, 0}, {film.options().width - 1, film.options().height - 1});
+  const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
+  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1});
   const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
   const Imf::Header header(display, data);
   io::ImageSpec spec;
   spec.source = &header;
-  spec.channels = channels_of(film, layer, options.pixel);
+  spec.channels = channels;
   spec.compression = options.compression;
-  if (layer == FilmLayer::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
-  if (layer == FilmLayer::kSensor) {
-    spec.text_attributes = {{"spectileSensor", film.options().sensors[sensor].name}};
-  }
-  if (layer == FilmLayer::kSpectrum) io::add_layout_attributes(spec.text_attributes, Quantity::kIlluminant);
+  spec.text_attributes = texts;
   const std::size_t slots = io::slot_count(spec, w.width(), tiles::thread_count(options.threads));
   auto writer = io::ExrWriter::create(path, spec, slots);
   if (!writer) return writer.error();
-  DevelopedJob job(*development, options.pixel, **kernels);
+  PictureJob job(picture, options.pixel, **kernels);
   SPECTILE_TRY(job.prepare(**writer, slots));
-  auto report = io::convert(job, **writer, slots, w.height(), options,
-                            [](const io::LineStats&) { return std::optional<Error>(); });
+  return io::convert(job, **writer, slots, w.height(), options,
+                     [](const io::LineStats&) { return std::optional<Error>(); });
+}
+
+Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t sensor,
+                                const std::string& path, const ImageOptions& options) {
+  auto development = FilmDevelopment::create(film, layer, sensor);
+  if (!development) return development.error();
+  const auto updated = development->update({options.threads});
+  if (!updated) return updated.error();
+  Texts texts;
+  if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
+  if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
+  if (layer == FilmLayer::kSpectrum) io::add_layout_attributes(texts, Quantity::kIlluminant);
+  const Picture picture = {development->plane(0), development->planes(), development->stride(),
+                           development->stride() * static_cast<std::size_t>(development->height())};
+  auto report = write(picture, film.options(), channels_of(film, layer, options.pixel), texts, path, options);
   if (report && layer == FilmLayer::kSpectrum) report->bands = film.options().bands.count();
   return report;
+}
+
+Result<ImageReport> write_exact(const ProceduralScene& scene, const FilmOptions& film,
+                                const std::string& path, const ImageOptions& options) {
+  const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
+  const auto width = static_cast<std::size_t>(w.width());
+  const std::size_t plane = width * static_cast<std::size_t>(w.height());
+  auto pixels = FloatBuffer::create(3 * plane);
+  if (!pixels) return pixels.error();
+  tiles::for_blocks(
+      static_cast<std::size_t>(w.height()), {options.threads, 1}, [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = first * width; i < (first + n) * width; ++i) {
+          const auto xyz =
+              scene.xyz(film, w.x0 + static_cast<int>(i % width), w.y0 + static_cast<int>(i / width));
+          for (std::size_t c = 0; c < 3; ++c) {
+            pixels->data()[c * plane + i] = static_cast<float>(xyz[c]);
+          }
+        }
+      });
+  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  return write({pixels->data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
+               options);
 }
 
 }  // namespace
 
 Result<ImageReport> write_developed(const Film& film, FilmLayer layer, std::size_t sensor,
                                     const std::string& path, const ImageOptions& options) {
-  return io::timed(path, [&] { return write(film, layer, sensor, path, options); });
+  return io::timed(path, [&] { return write_layer(film, layer, sensor, path, options); });
+}
+
+Result<ImageReport> write_scene(const ProceduralScene& scene, const FilmOptions& film,
+                                const std::string& path, const ImageOptions& options) {
+  return io::timed(path, [&] { return write_exact(scene, film, path, options); });
 }
 
 }  // namespace spectile
