@@ -74,7 +74,16 @@ void print_info(const std::string& path, const ImageInfo& info) {
     fmt::print("{} bands of {}, {} ({}), {:.5g} to {:.5g}\n", info.bands->count(), to_string(*info.quantity),
                info.bands->description(), info.channels[plain].type, least, most);
   }
-  for (std::size_t i = 0; i < plain; ++i) print_channel(info.channels[i]);
+  std::size_t limbs = 0;
+  for (std::size_t i = 0; i < plain; ++i) {
+    const bool limb = info.channels[i].name.rfind("film.", 0) == 0;
+    limbs += limb ? 1 : 0;
+    if (!limb) print_channel(info.channels[i]);
+  }
+  if (limbs > 0) {
+    fmt::print("  a partial film: {} channels of exact sums, which spectile film develop makes images of\n",
+               limbs);
+  }
   fmt::print("{} non-finite and {} negative samples\n", info.nonfinite, info.negative);
   for (const auto& [name, text] : info.attributes) {
     // Long ones, as the bands of a coefficient image, are whole in --json.
