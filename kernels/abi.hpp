@@ -129,6 +129,7 @@ struct FilmCurves {
   const float* rows = nullptr;
   float first_nm = 0;
   std::int32_t intervals = 0;
+  float largest = 0;  ///< no value and its difference are larger in sum, by magnitude
 };
 
 /// What a contribution is held to.
@@ -353,11 +354,12 @@ struct KernelTable {
                     std::size_t n) noexcept;
   /// address[i] of the pixel that (x, y) lies in, or minus the reason: reasons[i], or for position and weight
   /// NaN, infinite, weight below 0 (unless allowed), outside the window; adds to counts[reason] for i < n
-  /// alone, whatever n. Arrays readable and writable up to n rounded up to kLanes; addresses there are not
+  /// alone, whatever n. tiles: the lowest and the highest tile reached, as far as they are beyond what is
+  /// there. Arrays readable and writable up to n rounded up to kLanes; addresses there are not
   /// specified.
-  void (*film_place)(std::int32_t* address, std::uint64_t counts[kFilmReasons], const FilmWindow& window,
-                     const float* x, const float* y, const float* weight, const std::int32_t* reasons,
-                     std::size_t n) noexcept;
+  void (*film_place)(std::int32_t* address, std::int32_t tiles[2], std::uint64_t counts[kFilmReasons],
+                     const FilmWindow& window, const float* x, const float* y, const float* weight,
+                     const std::int32_t* reasons, std::size_t n) noexcept;
   /// adds `count` quads from quads[4 * count * sample] on to the pixel's limbs, for each quad 4 coarse ones
   /// and 4 rests, at tiles[tile] + offset + pixel * limbs, 64-byte aligned
   void (*film_add)(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,

@@ -11,9 +11,11 @@ namespace {
 /// Entries ahead of the one being added whose pixels are fetched: a few hundred cycles of work.
 inline constexpr std::size_t kFilmAhead = 16;
 
-void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const FilmWindow& window,
-                const float* x, const float* y, const float* weight, const std::int32_t* reasons,
-                std::size_t n) noexcept {
+void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t counts[kFilmReasons],
+                const FilmWindow& window, const float* x, const float* y, const float* weight,
+                const std::int32_t* reasons, std::size_t n) noexcept {
+  I32 lowest(tiles[0]);
+  I32 highest(tiles[1]);
   const F32 zero(0.0F);
   const F32 x0(window.x0);
   const F32 y0(window.y0);
@@ -35,6 +37,8 @@ void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const
     const std::size_t lanes = n - i < kWidth ? n - i : kWidth;
     if (lanes == kWidth && fine == (std::uint64_t{1} << kWidth) - 1) {
       counts[kFilmAccepted] += kWidth;
+      lowest = xsimd::min(lowest, tile);
+      highest = xsimd::max(highest, tile);
       continue;
     }
     for (std::size_t lane = i; lane < i + lanes; ++lane) {
@@ -51,8 +55,21 @@ void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const
       const std::int32_t known = reasons[lane];
       if (known != kFilmAccepted && (reason == kFilmAccepted || known < reason)) reason = known;
       ++counts[reason];
-      if (reason != kFilmAccepted) address[lane] = -reason;
+      if (reason != kFilmAccepted) {
+        address[lane] = -reason;
+        continue;
+      }
+      const std::int32_t at = address[lane] >> (2 * kFilmTileLog2);
+      tiles[0] = at < tiles[0] ? at : tiles[0];
+      tiles[1] = at > tiles[1] ? at : tiles[1];
     }
+  }
+  alignas(64) std::int32_t ends[2][kWidth];
+  lowest.store_aligned(ends[0]);
+  highest.store_aligned(ends[1]);
+  for (std::size_t lane = 0; lane < kWidth; ++lane) {
+    tiles[0] = ends[0][lane] < tiles[0] ? ends[0][lane] : tiles[0];
+    tiles[1] = ends[1][lane] > tiles[1] ? ends[1][lane] : tiles[1];
   }
 }
 
@@ -88,6 +105,28 @@ inline void for_entries(std::int64_t* const* tiles, std::size_t offset, std::siz
 void film_add(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
               const FilmEntries& entries, const float* quads, std::size_t count, std::size_t limbs) noexcept {
   const QuadGrid magic(grid);
+  if (entries.tile >= 0 && entries.sample == nullptr && entries.factor == nullptr && count == 1) {
+    // As samples come from a renderer's tile: two side by side.
+    std::int64_t* const tile = tiles[entries.tile] + offset;
+    const auto place = [&](std::int32_t address) {
+      return tile + (static_cast<std::size_t>(address) % kFilmTilePixels) * limbs;
+    };
+    std::size_t i = 0;
+    for (; i + 1 < entries.count; i += 2) {
+      const std::int32_t first = entries.address[i];
+      const std::int32_t second = entries.address[i + 1];
+      if ((first | second) >= 0) {
+        add_two_quads(place(first), place(second), quads + 4 * i, magic);
+        continue;
+      }
+      if (first >= 0) add_quad(place(first), quad_load(quads + 4 * i), magic);
+      if (second >= 0) add_quad(place(second), quad_load(quads + 4 * i + 4), magic);
+    }
+    if (i < entries.count && entries.address[i] >= 0) {
+      add_quad(place(entries.address[i]), quad_load(quads + 4 * i), magic);
+    }
+    return;
+  }
   if (entries.factor == nullptr && count == 1) {
     for_entries(tiles, offset, limbs, entries, [&](std::size_t sample, float, std::int64_t* pixel) {
       add_quad(pixel, quad_load(quads + 4 * sample), magic);

@@ -38,9 +38,20 @@ class Weighing {
         clamps_(limits.maximum - limits.maximum == 0.0F),
         maximum_(limits.maximum),
         range_(limits.range),
+        weight_range_(limits.weight_range),
         limit_(xsimd::select(last_of_quads(), F32(limits.weight_range), F32(limits.range))) {}
 
+  /// Whether no contribution of kWidth samples from i on can be beyond the range, their colours having no
+  /// component larger than `bound`.
+  bool surely_within(std::size_t i, F32 bound) const noexcept {
+    const F32 w = weight_ == nullptr ? F32(1.0F) : xsimd::abs(load_any(weight_ + i));
+    Mask good = (bound * w <= F32(range_)) & (w <= F32(weight_range_));
+    if (luminance_ != nullptr) good = good & (bound <= F32(range_));
+    return lane_bits(~good) == 0;
+  }
+
   /// The colours of kQuads samples from i on, their last components whatever they are.
+  template <bool kLook>
   void put(std::size_t i, F32 color) noexcept {
     if (clamps_) {
       const F32 most = largest_of_three(xsimd::abs(color));
@@ -49,7 +60,7 @@ class Weighing {
     if (luminance_ != nullptr) put_luminance(i, color);
     F32 weighed = xsimd::select(last_of_quads(), F32(1.0F), color);
     if (weight_ != nullptr) weighed = weighed * spread_over_quads(weight_ + i);
-    beyond_ = beyond_ | ~(xsimd::abs(weighed) <= limit_);
+    if constexpr (kLook) beyond_ = beyond_ | ~(xsimd::abs(weighed) <= limit_);
     store_any(quads_ + 4 * i, weighed);
   }
 
@@ -82,6 +93,7 @@ class Weighing {
   bool clamps_;
   F32 maximum_;
   float range_;
+  float weight_range_;
   F32 limit_;
   Mask beyond_ = F32(0.0F) > F32(0.0F);
 };
@@ -115,9 +127,12 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
   const F32 zero(0.0F);
   const F32 intervals(static_cast<float>(curves.intervals));
   const I32 beyond_curves(curves.intervals + 1);
+  // No sum of rows is larger than this times the sum of the ratios, all roundings included.
+  const float largest = curves.largest * factor * 1.001F;
   for (std::size_t i = 0; i < n; i += kWidth) {
     F32 everything = zero;
     F32 least = zero;
+    F32 size = zero;
     for (std::size_t k = 0; k < count; ++k) {
       const F32 lambda = load_any(lambda_nm[k] + i);
       const F32 pdf = load_any(density[k] + i);
@@ -133,6 +148,7 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
       // Not finite where a number is not: which it is, is looked for below.
       everything = everything + ((lambda + pdf) + quotient);
       least = limit_above(least, pdf);
+      size = size + xsimd::abs(quotient);
     }
     I32(0).store_unaligned(reasons + i);
     if (lane_bits(differ(everything * zero, zero) | (least < zero)) != 0) {
@@ -140,13 +156,18 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
         reasons[i + lane] = fault_at(radiance, lambda_nm, density, count, i + lane);
       }
     }
-    for (std::size_t lane = 0; lane < kWidth; lane += kQuads) {
+    const auto color_at = [&](std::size_t lane) {
       RowSums sums;
       for (std::size_t k = 0; k < count; ++k) {
         sums.add(curves.rows, row[k] + lane, ratio[k] + lane, part[k] + lane);
       }
-      to.put(i + lane, sums.total() * F32(factor));
+      return sums.total() * F32(factor);
+    };
+    if (to.surely_within(i, size * F32(largest))) {
+      for (std::size_t lane = 0; lane < kWidth; lane += kQuads) to.put<false>(i + lane, color_at(lane));
+      continue;
     }
+    for (std::size_t lane = 0; lane < kWidth; lane += kQuads) to.put<true>(i + lane, color_at(lane));
     to.find_beyond(reasons, i, kWidth);
   }
 }
@@ -212,7 +233,8 @@ void film_weigh_bands(float* quads, float* luminance, std::int32_t* reasons, con
         quad_store(turned + 4 * (lane + j), color[j]);
       }
     }
-    for (std::size_t lane = 0; lane < kLanesAtOnce; lane += kQuads) to.put(i + lane, load(turned + 4 * lane));
+    for (std::size_t lane = 0; lane < kLanesAtOnce; lane += kQuads)
+      to.put<true>(i + lane, load(turned + 4 * lane));
     to.find_beyond(reasons, i, kLanesAtOnce);
   }
 }

@@ -249,10 +249,13 @@ inline void add_pair(std::int64_t* coarse, std::int64_t* rest, Double2 v, Double
 struct QuadGrid {
   __m256d coarse, rest;
   __m512i bits;  // of both
+  __m512d coarse_twice, rest_twice;
   explicit QuadGrid(const FilmGrid& grid)
       : coarse(_mm256_loadu_pd(grid.coarse)),
         rest(_mm256_loadu_pd(grid.rest)),
-        bits(_mm512_castpd_si512(_mm512_insertf64x4(_mm512_castpd256_pd512(coarse), rest, 1))) {}
+        bits(_mm512_castpd_si512(_mm512_insertf64x4(_mm512_castpd256_pd512(coarse), rest, 1))),
+        coarse_twice(_mm512_broadcast_f64x4(coarse)),
+        rest_twice(_mm512_broadcast_f64x4(rest)) {}
 };
 inline void add_quad(std::int64_t* pixel, Quad v, const QuadGrid& grid) {
   const __m256d wide = _mm256_cvtps_pd(v);
@@ -262,6 +265,18 @@ inline void add_quad(std::int64_t* pixel, Quad v, const QuadGrid& grid) {
   const __m512d both = _mm512_insertf64x4(_mm512_castpd256_pd512(sum), small, 1);
   const __m512i steps = _mm512_sub_epi64(_mm512_castpd_si512(both), grid.bits);
   _mm512_store_si512(pixel, _mm512_add_epi64(_mm512_load_si512(pixel), steps));
+}
+/// The same for two quads side by side in memory; first and second may be one pixel.
+inline void add_two_quads(std::int64_t* first, std::int64_t* second, const float* quads,
+                          const QuadGrid& grid) {
+  const __m512d wide = _mm512_cvtps_pd(_mm256_loadu_ps(quads));
+  const __m512d sum = _mm512_add_pd(wide, grid.coarse_twice);
+  const __m512d left = _mm512_sub_pd(wide, _mm512_sub_pd(sum, grid.coarse_twice));
+  const __m512d small = _mm512_add_pd(left, grid.rest_twice);
+  const __m512i one = _mm512_castpd_si512(_mm512_shuffle_f64x2(sum, small, 0x44));
+  const __m512i two = _mm512_castpd_si512(_mm512_shuffle_f64x2(sum, small, 0xEE));
+  _mm512_store_si512(first, _mm512_add_epi64(_mm512_load_si512(first), _mm512_sub_epi64(one, grid.bits)));
+  _mm512_store_si512(second, _mm512_add_epi64(_mm512_load_si512(second), _mm512_sub_epi64(two, grid.bits)));
 }
 #elif defined(SPECTILE_KERNEL_AVX2)
 struct QuadGrid {
@@ -290,6 +305,15 @@ struct QuadGrid {
 inline void add_quad(std::int64_t* pixel, Quad v, const QuadGrid& grid) {
   add_pair(pixel, pixel + 4, widen_first(v), grid.coarse[0], grid.rest[0]);
   add_pair(pixel + 2, pixel + 6, widen_last(v), grid.coarse[1], grid.rest[1]);
+}
+#endif
+
+#if !defined(SPECTILE_KERNEL_AVX512)
+/// Adds two quads side by side in memory; first and second may be one pixel.
+inline void add_two_quads(std::int64_t* first, std::int64_t* second, const float* quads,
+                          const QuadGrid& grid) {
+  add_quad(first, quad_load(quads), grid);
+  add_quad(second, quad_load(quads + 4), grid);
 }
 #endif
 

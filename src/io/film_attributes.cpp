@@ -132,6 +132,7 @@ Result<void> read_responses(Reader& reader, FilmAccess::State& s, std::size_t co
       }
       o.sensors.push_back({response.name, *std::move(sensor)});
     }
+    if (o.input == FilmInput::kWavelengths) response.largest = largest_in_rows(response.table.data());
     s.responses.push_back(std::move(response));
   }
   return reader.result();

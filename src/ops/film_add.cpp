@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <new>
 
@@ -112,7 +113,8 @@ void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch
                              batch.weight, count, n);
     } else {
       const kernels::FilmCurves curves = {response, static_cast<float>(kFirstVisibleNm),
-                                          static_cast<std::int32_t>(kLastVisibleNm - kFirstVisibleNm)};
+                                          static_cast<std::int32_t>(kLastVisibleNm - kFirstVisibleNm),
+                                          s.responses[c].largest};
       table.film_weigh_wavelengths(quads, luminance, reasons, curves, s.limits, scratch.radiance.data(),
                                    scratch.lambda_nm.data(), scratch.density.data(), batch.weight,
                                    1.0F / static_cast<float>(count), count, n);
@@ -142,11 +144,16 @@ Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch&
   std::array<std::uint64_t, kFilmReasons> counts{};
   const FilmContributions contributions = {.wavelengths = whole.radiance.count, .samples = padded};
   if (s.options.placement == SamplePlacement::kOnePixel) {
-    table.film_place(scratch.address.data(), counts.data(), s.kernel_window, batch->x, batch->y,
+    std::int32_t tiles[2] = {std::numeric_limits<std::int32_t>::max(), -1};
+    table.film_place(scratch.address.data(), tiles, counts.data(), s.kernel_window, batch->x, batch->y,
                      batch->weight, scratch.reasons.data(), n);
-    SPECTILE_TRY(add_entries(
-        s, table, contributions,
-        {.sample = nullptr, .address = scratch.address.data(), .factor = nullptr, .count = n}, scratch));
+    SPECTILE_TRY(add_entries(s, table, contributions,
+                             {.sample = nullptr,
+                              .address = scratch.address.data(),
+                              .factor = nullptr,
+                              .count = n,
+                              .tile = tiles[0] == tiles[1] ? tiles[0] : -1},
+                             scratch));
   } else {
     SPECTILE_TRY(splat(s, table, contributions, batch->x, batch->y, batch->weight, n, counts, scratch));
   }

@@ -108,6 +108,13 @@ FilmEntries sort_by_stripe(const FilmEntries& e, FilmScratch& scratch,
 Result<void> add_entries(State& s, const KernelTable& table, const FilmContributions& contributions,
                          const FilmEntries& entries, FilmScratch& scratch) {
   const std::size_t weight = s.layout.bands > 0 && s.layout.own_weights ? contributions.wavelengths : 1;
+  if (entries.tile >= 0) {
+    const auto tile = static_cast<std::size_t>(entries.tile);
+    const std::scoped_lock lock(s.mutex_of(tile));
+    if (!expect(s, tile, entries.count, weight)) return no_memory();
+    run_kernels(s, table, contributions, entries, scratch);
+    return {};
+  }
   // Runs of entries in one tile; those that reach no pixel belong to the run around them.
   std::array<std::size_t, kFewRuns> run_ends{};
   std::array<std::size_t, kFewRuns> run_tiles{};

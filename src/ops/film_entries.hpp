@@ -16,7 +16,7 @@ struct FilmContributions {
   std::size_t samples = 0;      ///< in a row of them
 };
 
-/// Adds entries (in any order, tiles mixed) to the film. Errors: kOutOfMemory.
+/// Adds entries (in any order, tiles mixed unless they name one) to the film. Errors: kOutOfMemory.
 Result<void> add_entries(FilmAccess::State& state, const kernels::KernelTable& table,
                          const FilmContributions& contributions, const kernels::FilmEntries& entries,
                          FilmScratch& scratch);

@@ -2,6 +2,7 @@
 #include "src/ops/film_responses.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <spectile/wavelengths.hpp>
 
@@ -81,6 +82,16 @@ std::string differ(const char* what, const std::string& a, const std::string& b)
 
 }  // namespace
 
+float largest_in_rows(const float* table) {
+  float out = 0;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out = std::max(out, std::abs(table[8 * row + c]) + std::abs(table[8 * row + 4 + c]));
+    }
+  }
+  return out;
+}
+
 std::size_t film_response_floats(const FilmOptions& options) {
   return options.input == FilmInput::kWavelengths ? 8 * kRows : 4 * options.bands.count();
 }
@@ -89,7 +100,8 @@ Result<void> make_film_responses(FilmAccess::State& s) {
   const FilmOptions& o = s.options;
   const auto add = [&](std::string name, Result<FloatBuffer> table) -> Result<void> {
     if (!table) return table.error();
-    s.responses.push_back({std::move(name), *std::move(table)});
+    const float largest = o.input == FilmInput::kWavelengths ? largest_in_rows(table->data()) : 0.0F;
+    s.responses.push_back({std::move(name), *std::move(table), largest});
     return {};
   };
   if (o.xyz) SPECTILE_TRY(add(name_of(*o.xyz), observer_table(*o.xyz, o)));

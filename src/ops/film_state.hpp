@@ -24,6 +24,7 @@ inline constexpr int kFilmLimbBits = 44;
 struct FilmResponse {
   std::string name;  ///< "cie1931", "cie1964", or the sensor's
   FloatBuffer table;
+  float largest = 0;  ///< see kernels::FilmCurves
 };
 
 /// Where a tile's parts begin, in limbs of 64 bits; each part holds a fixed number of limbs a pixel.

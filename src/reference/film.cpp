@@ -193,9 +193,9 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
   }
 }
 
-void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const FilmWindow& window,
-                const float* x, const float* y, const float* weight, const std::int32_t* reasons,
-                std::size_t n) noexcept {
+void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t counts[kFilmReasons],
+                const FilmWindow& window, const float* x, const float* y, const float* weight,
+                const std::int32_t* reasons, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const float w = weight_of(weight, i);
     bool nan = false;
@@ -222,6 +222,8 @@ void film_place(std::int32_t* address, std::uint64_t counts[kFilmReasons], const
     const std::int32_t row = static_cast<std::int32_t>(std::floor(y[i])) - window.origin_y;
     const std::int32_t tile = (row / kSide) * window.tiles_x + column / kSide;
     address[i] = tile * kSide * kSide + (row % kSide) * kSide + column % kSide;
+    tiles[0] = std::min(tiles[0], tile);
+    tiles[1] = std::max(tiles[1], tile);
   }
 }
 

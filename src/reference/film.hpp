@@ -20,7 +20,7 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const ker
                const kernels::FilmLimits& limits, const float* const* radiance, const float* const* lambda_nm,
                const float* const* density, const float* weight, float reference, std::size_t count,
                std::size_t n) noexcept;
-void film_place(std::int32_t* address, std::uint64_t counts[kernels::kFilmReasons],
+void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t counts[kernels::kFilmReasons],
                 const kernels::FilmWindow& window, const float* x, const float* y, const float* weight,
                 const std::int32_t* reasons, std::size_t n) noexcept;
 void film_add(std::int64_t* const* tiles, std::size_t offset, const kernels::FilmGrid& grid,

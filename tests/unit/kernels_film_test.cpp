@@ -90,7 +90,7 @@ class FilmKernels : public KernelTest {};
 
 TEST_P(FilmKernels, WavelengthsWeighAsInTheReference) {
   const Floats rows = curves();
-  const kernels::FilmCurves table = {rows.data(), 360, kIntervals};
+  const kernels::FilmCurves table = {rows.data(), 360, kIntervals, 4};
   for (const std::size_t count : {1, 3, 4, 8, 9, 64}) {
     for (const bool wild : {false, true}) {
       const Batch b(count, wild);
@@ -194,16 +194,20 @@ TEST_P(FilmKernels, PlacesAreTheReferences) {
       const kernels::FilmWindow window = {3, 0, 60, 37, 0, 0, 4, negative};
       std::vector<std::int32_t> reasons(kSamples, 0);
       for (std::size_t i = 0; i < kSamples; i += 7) reasons[i] = static_cast<std::int32_t>(i % kFilmReasons);
-      const auto run = [&](const KernelTable& t, std::array<std::uint64_t, kFilmReasons>& counts) {
+      const auto run = [&](const KernelTable& t, std::array<std::uint64_t, kFilmReasons>& counts,
+                           std::array<std::int32_t, 2>& tiles) {
         std::vector<std::int32_t> address(kSamples, 0);
-        t.film_place(address.data(), counts.data(), window, b.position_x.data(), b.position_y.data(),
-                     b.weight.data(), reasons.data(), n);
+        t.film_place(address.data(), tiles.data(), counts.data(), window, b.position_x.data(),
+                     b.position_y.data(), b.weight.data(), reasons.data(), n);
         return address;
       };
       std::array<std::uint64_t, kFilmReasons> got{};
       std::array<std::uint64_t, kFilmReasons> want{};
-      const auto address = run(k(), got);
-      const auto expected = run(ref(), want);
+      std::array<std::int32_t, 2> got_tiles = {1000, -1};
+      std::array<std::int32_t, 2> want_tiles = {1000, -1};
+      const auto address = run(k(), got, got_tiles);
+      const auto expected = run(ref(), want, want_tiles);
+      EXPECT_EQ(got_tiles, want_tiles);
       EXPECT_TRUE(
           std::equal(address.begin(), address.begin() + static_cast<std::ptrdiff_t>(n), expected.begin()));
       EXPECT_EQ(got, want);
