@@ -48,6 +48,12 @@ double row(const std::vector<float>& v, const Batch& b, std::size_t j, std::size
   return static_cast<double>(v[j * b.stride + i + b.first]);
 }
 
+/// A curve as films keep it: linear between whole nanometres.
+double at_nanometres(const Spectrum& curve, double lambda) {
+  const double low = std::min(std::floor(lambda), 829.0);
+  return curve(low) + (lambda - low) * (curve(low + 1) - curve(low));
+}
+
 void add_to(Pixel& p, const Batch& b, std::size_t i, double w, const Sensor& sensor, const Bands& bands) {
   p.weight += w;
   ++p.count;
@@ -59,8 +65,8 @@ void add_to(Pixel& p, const Batch& b, std::size_t i, double w, const Sensor& sen
     const double lambda = row(b.lambda, b, j, i);
     const double r = row(b.radiance, b, j, i);
     for (std::size_t c = 0; c < 3 && lambda >= 360 && lambda <= 830; ++c) {
-      const double v =
-          w * sensor.factors()[c] * sensor.curves()[c](lambda) * r / pdf / static_cast<double>(b.k);
+      const double v = w * sensor.factors()[c] * at_nanometres(sensor.curves()[c], lambda) * r / pdf /
+                       static_cast<double>(b.k);
       p.color[c] += v;
       p.magnitude[c] += std::abs(v);
     }
