@@ -174,7 +174,7 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   // OpenEXRCore counts channels in 16 bits, with a sign; beyond, it drops all without a word.
   constexpr std::size_t kMostChannels = 32767;
   if (job.channels().size() > kMostChannels) {
-    return make_error(ErrorCode::kBadArgument, "{}: the film takes {} channels, and a file holds {}", path,
+    return make_error(ErrorCode::kUnavailable, "{}: the film takes {} channels, and a file holds {}", path,
                       job.channels().size(), kMostChannels);
   }
   io::ImageSpec spec;

@@ -243,7 +243,7 @@ TEST(FilmFileLaws, EmptyFilmsAndSinglePixelsComeBack) {
 
 TEST(FilmFileLaws, ManyBandsComeBack) {
   const TempFolder folder;
-  for (const std::size_t count : {300U, 4096U}) {
+  for (const std::size_t count : {300U, 2000U, 4096U}) {
     FilmOptions o = small_film();
     o.spectral = true;
     std::vector<Band> bands;
@@ -255,6 +255,13 @@ TEST(FilmFileLaws, ManyBandsComeBack) {
     Film film = *Film::create(o);
     fill(film, 3);
     const auto report = save_film(film, folder / "film.exr");
+    if (count == 4096) {
+      // More channels than OpenEXR can count: said, and nothing lost in silence.
+      ASSERT_FALSE(report);
+      EXPECT_EQ(report.error().code, ErrorCode::kUnavailable);
+      EXPECT_THAT(report.error().message, testing::HasSubstr("32767"));
+      continue;
+    }
     ASSERT_TRUE(report) << count << " bands: " << report.error().message;
     const auto loaded = load_film(folder / "film.exr");
     ASSERT_TRUE(loaded) << loaded.error().message;
