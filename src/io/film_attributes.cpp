@@ -185,6 +185,10 @@ Result<FilmDescription> film_of(const Imf::Header& header, const std::string& pa
   FilmDescription out;
   out.progress = reader.text("spectileFilmProgress");
   const Imath::Box2i& display = header.displayWindow();
+  if (display.min != Imath::V2i(0, 0)) {
+    return make_error(ErrorCode::kBadFile, "{}: a film whose display window begins at {}, {}, not 0, 0", path,
+                      display.min.x, display.min.y);
+  }
   o.width = display.max.x + 1;
   o.height = display.max.y + 1;
   const auto crop = reader.numbers<int>("spectileFilmCrop", 4);
