@@ -20,7 +20,8 @@ struct FilmFileReport {
 /// files, but for the compression. add() of other threads waits meanwhile, so the file holds whole batches
 /// only; it appears at its path whole or not at all: a checkpoint is a save, and whatever ends the run, the
 /// last one stands. `progress` is the caller's note of how far it is; load_film() gives it back. Errors:
-/// kNoSpace, kNoPermission, kBadFile, kOutOfMemory; kUnavailable for sums beyond the film's range.
+/// kNoSpace, kNoPermission, kBadFile, kOutOfMemory; kUnavailable for sums beyond the film's range, and for
+/// more than 32767 channels, as some 4090 bands fed with wavelengths take them.
 Result<FilmFileReport> save_film(const Film& film, const std::string& path, const std::string& progress = {},
                                  const ImageOptions& options = {});
 

@@ -124,12 +124,12 @@ Result<void> read_responses(Reader& reader, FilmAccess::State& s, std::size_t co
     std::copy(table.begin(), table.end(), response.table.data());
     const bool finite = std::all_of(table.begin(), table.end(), [](float v) { return v - v == 0; });
     if (!finite) reader.fail(table_name(i));
-    if (i >= (o.xyz ? 1U : 0U) && !(count == 1 && response.name == "none")) {
+    const bool black = std::all_of(table.begin(), table.end(), [](float v) { return v == 0; });
+    if (i >= (o.xyz ? 1U : 0U) && !(count == 1 && black && response.name == "none")) {
       auto sensor = sensor_like(response.name, table.data(), o);
-      if (!sensor) {
-        reader.fail(table_name(i));
-        return reader.result();
-      }
+      // Of the bands alone a sensor cannot always be told: it may see none of them with one of its curves.
+      if (!sensor) sensor = Sensor::named("cie1931");
+      if (!sensor) return sensor.error();
       o.sensors.push_back({response.name, *std::move(sensor)});
     }
     if (o.input == FilmInput::kWavelengths) response.largest = largest_in_rows(response.table.data());
@@ -186,6 +186,10 @@ Result<FilmDescription> film_of(const Imf::Header& header, const std::string& pa
   FilmDescription out;
   out.progress = reader.text("spectileFilmProgress");
   const Imath::Box2i& display = header.displayWindow();
+  if (display.min != Imath::V2i(0, 0)) {
+    return make_error(ErrorCode::kBadFile, "{}: a film whose display window begins at {}, {}, not 0, 0", path,
+                      display.min.x, display.min.y);
+  }
   o.width = display.max.x + 1;
   o.height = display.max.y + 1;
   const auto crop = reader.numbers<int>("spectileFilmCrop", 4);

@@ -10,7 +10,7 @@ std::vector<FilmLimb> film_limbs(const FilmTileLayout& l) {
   const auto four = [&](const std::array<std::string, 4>& names, std::size_t at, std::size_t per_pixel) {
     for (std::size_t i = 0; i < 8; ++i) {
       const std::string& name = names[i % 4];
-      if (name.empty()) continue;  // a component that is always 0
+      if (name.empty()) continue;  // always 0, or the same weight again
       out.push_back({fmt::format("film.{}.{}", name, i < 4 ? "coarse" : "rest"), at + i, per_pixel});
     }
   };

@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <shared_mutex>
 #include <spectile/film_file.hpp>
 
@@ -26,7 +27,10 @@ constexpr std::size_t kPreviewChannels = 3;
 PixelWindow touched_window(const State& s) {
   PixelWindow out = {s.window.x1, s.window.y1, s.window.x0, s.window.y0};
   for (std::size_t t = 0; t < s.tiles.size(); ++t) {
-    if (s.tiles[t] == nullptr) continue;
+    const std::int64_t* const limbs = s.tiles[t];
+    // A tile of zeros, of weights 0 or of sums that cancel, is as good as none.
+    if (limbs == nullptr || std::all_of(limbs, limbs + s.layout.limbs, [](std::int64_t v) { return v == 0; }))
+      continue;
     const PixelWindow w = s.tile_window(t);
     out = {std::min(out.x0, w.x0), std::min(out.y0, w.y0), std::max(out.x1, w.x1), std::max(out.y1, w.y1)};
   }
@@ -156,7 +160,10 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   if (!kernels) return kernels.error();
   State& s = FilmAccess::state(film);
   const std::unique_lock lock(s.whole);
-  for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
+  for (std::size_t t = 0; t < s.tiles.size(); ++t) {
+    const std::scoped_lock tile(s.mutex_of(t));  // a development may be looking at it
+    s.settle(t);
+  }
   if (s.overflown) return beyond_range(s);
   const PixelWindow window = touched_window(s);
   const Imath::Box2i display({0, 0}, {s.options.width - 1, s.options.height - 1});
@@ -164,6 +171,12 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   const Imf::Header header(display, data);
   const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
   SaveJob job(s, window, limbs, s.options.xyz.has_value(), **kernels);
+  // OpenEXRCore counts channels in 16 bits, with a sign; beyond, it drops all without a word.
+  constexpr std::size_t kMostChannels = 32767;
+  if (job.channels().size() > kMostChannels) {
+    return make_error(ErrorCode::kUnavailable, "{}: the film takes {} channels, and a file holds {}", path,
+                      job.channels().size(), kMostChannels);
+  }
   io::ImageSpec spec;
   spec.source = &header;
   spec.channels = job.channels();
@@ -221,6 +234,16 @@ Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::Fil
   return {};
 }
 
+/// Every colour's quad holds the weight, the file that of the first one.
+void copy_weights(State& s) {
+  for (std::int64_t* const tile : s.tiles) {
+    for (std::size_t q = 0; tile != nullptr && q < s.layout.quads * kernels::kFilmTilePixels; ++q) {
+      const std::size_t first = q - q % s.layout.quads;
+      for (const std::size_t limb : {3U, 7U}) tile[8 * q + limb] = tile[8 * first + limb];
+    }
+  }
+}
+
 Result<LoadedFilm> load(const std::string& path, int threads) {
   auto input = io::ExrInput::open(path, tiles::thread_count(threads));
   if (!input) return input.error();
@@ -245,6 +268,7 @@ Result<LoadedFilm> load(const std::string& path, int threads) {
     }
   }
   SPECTILE_TRY(read_limbs(**input, s, limbs, data));
+  copy_weights(s);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
   if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, beyond_range(s).message);
   return LoadedFilm{FilmAccess::make(std::move(described->state)), std::move(described->progress)};

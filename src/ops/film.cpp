@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <shared_mutex>
 #include <spectile/film.hpp>
 
 #include "src/base/errors.hpp"
@@ -63,6 +64,10 @@ Result<void> Film::merge(const Film& other) {
   if (const auto difference = film_difference(to, from)) {
     return make_error(ErrorCode::kBadArgument, "the films differ in {}", *difference);
   }
+  // A file of either holds all of the other or none of it.
+  std::shared_lock whole_to(to.whole, std::defer_lock);
+  std::shared_lock whole_from(from.whole, std::defer_lock);
+  std::lock(whole_to, whole_from);
   for (std::size_t t = 0; t < to.tiles.size(); ++t) {
     // Both films' mutexes: whichever is merged into the other at the same time.
     const std::scoped_lock lock(to.mutex_of(t), from.mutex_of(t));
@@ -72,7 +77,11 @@ Result<void> Film::merge(const Film& other) {
     }
     to.settle(t);
     from.settle(t);
-    for (std::size_t i = 0; i < to.layout.limbs; ++i) to.tiles[t][i] += from.tiles[t][i];
+    for (std::size_t i = 0; i < to.layout.limbs; ++i) {
+      // Sums beyond the range may wrap round; settling finds them.
+      to.tiles[t][i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.tiles[t][i]) +
+                                                 static_cast<std::uint64_t>(from.tiles[t][i]));
+    }
     to.additions[t] += std::max<std::uint64_t>(1, from.additions[t]);
     to.settle(t);
   }

@@ -32,8 +32,9 @@ std::size_t tile_of(std::int32_t address) {
 /// held. False where there is no memory.
 bool expect(State& s, std::size_t tile, std::size_t count, std::size_t weight) {
   if (s.touch(tile) == nullptr) return false;
+  // Carried over before these are counted: they are not in yet, and must not pass for settled.
+  if (s.additions[tile] + count * weight - s.settled[tile] > kSettleAfter) s.settle(tile);
   s.additions[tile] += count * weight;
-  if (s.additions[tile] - s.settled[tile] > kSettleAfter) s.settle(tile);
   return true;
 }
 

@@ -78,7 +78,9 @@ class FilmPixels {
   const std::int64_t* quad(const std::int64_t* tile, std::size_t pixel, std::size_t index) const {
     return tile + 8 * (pixel * s_.layout.quads + index);
   }
+  /// Carried over first, so that equal sums are equal numbers whether or not the tile is settled.
   static double sum(std::int64_t coarse, std::int64_t rest, double coarse_step) {
+    film_carry(coarse, rest);
     return static_cast<double>(coarse) * coarse_step +
            static_cast<double>(rest) * std::ldexp(coarse_step, -kFilmLimbBits);
   }
@@ -100,9 +102,11 @@ class FilmPixels {
   double variance(const std::int64_t* tile, std::size_t pixel, double w) const {
     const std::int64_t* const m = tile + s_.layout.moments_at + 8 * pixel;
     if (m[6] < 2 || w == 0) return std::numeric_limits<double>::infinity();
+    std::int64_t limbs[4] = {m[0], m[1], m[2], m[3]};
+    for (int k = 3; k > 0; --k) film_carry(limbs[k - 1], limbs[k]);
     double squares = 0;
     for (int k = 3; k >= 0; --k) {
-      squares += static_cast<double>(m[k]) * std::ldexp(luminance_square_, -k * kFilmLimbBits);
+      squares += static_cast<double>(limbs[k]) * std::ldexp(luminance_square_, -k * kFilmLimbBits);
     }
     const double share = sum(m[4], m[5], weight_square_) / (w * w);
     if (!(share < 1)) return std::numeric_limits<double>::infinity();

@@ -27,9 +27,10 @@ struct Axis {
   /// Pixels whose centres lie in (position - radius, position + radius]; 0 beyond.
   void measure(const kernels::KernelTable& table, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) {
-      const float start = position[i] - profile.reach;
+      // In double: next to a far position a float loses the radius's last digits, and so the first pixel.
+      const double start = static_cast<double>(position[i]) - (0.5 + static_cast<double>(profile.radius));
       // A position that is far away, or no number, is refused before its footprint is used.
-      first[i] = std::abs(start) < 0x1p24F ? static_cast<int>(std::floor(start)) + 1 : 0;
+      first[i] = std::abs(start) < 0x1p24 ? static_cast<int>(std::floor(start)) + 1 : 0;
     }
     for (int j = 0; j < profile.most_pixels; ++j) {
       float* const row = weights + static_cast<std::size_t>(j) * kPart;

@@ -122,14 +122,6 @@ std::int64_t* Film::State::touch(std::size_t tile) noexcept {
 
 namespace {
 
-/// Carries what a limb holds beyond its share over into the limb before it.
-void carry(std::int64_t& before, std::int64_t& limb) {
-  constexpr std::int64_t kHalf = std::int64_t{1} << (kFilmLimbBits - 1);
-  const std::int64_t over = (limb + kHalf) >> kFilmLimbBits;
-  limb -= over * (std::int64_t{1} << kFilmLimbBits);
-  before += over;
-}
-
 // A quarter of what a limb holds: far beyond 2^31 contributions at the range's end, and far from its end.
 constexpr std::int64_t kMostCoarse = std::int64_t{1} << 62;
 
@@ -142,7 +134,7 @@ void Film::State::settle(std::size_t tile) noexcept {
   bool fits = true;
   const auto settle_four = [&](std::int64_t* at) {
     for (std::size_t c = 0; c < 4; ++c) {
-      carry(at[c], at[4 + c]);
+      film_carry(at[c], at[4 + c]);
       fits = fits && at[c] <= kMostCoarse && at[c] >= -kMostCoarse;
     }
   };
@@ -151,7 +143,7 @@ void Film::State::settle(std::size_t tile) noexcept {
   if (layout.own_weights) {
     for (std::size_t b = 0; b < layout.bands * kFilmTilePixels; ++b) {
       for (std::size_t c = 0; c < 2; ++c) {
-        carry(spectrum[4 * b + c], spectrum[4 * b + 2 + c]);
+        film_carry(spectrum[4 * b + c], spectrum[4 * b + 2 + c]);
         fits = fits && spectrum[4 * b + c] <= kMostCoarse && spectrum[4 * b + c] >= -kMostCoarse;
       }
     }
@@ -162,8 +154,8 @@ void Film::State::settle(std::size_t tile) noexcept {
     std::int64_t* const moments = limbs + layout.moments_at;
     for (std::size_t p = 0; p < kFilmTilePixels; ++p) {
       std::int64_t* const m = moments + 8 * p;
-      for (std::size_t k = 3; k > 0; --k) carry(m[k - 1], m[k]);
-      carry(m[4], m[5]);
+      for (std::size_t k = 3; k > 0; --k) film_carry(m[k - 1], m[k]);
+      film_carry(m[4], m[5]);
       for (const std::int64_t v : {m[0], m[4]}) fits = fits && v <= kMostCoarse && v >= -kMostCoarse;
     }
   }

@@ -19,6 +19,16 @@ namespace spectile {
 inline constexpr int kFilmCoarseBits = 31;
 inline constexpr int kFilmLimbBits = 44;
 
+/// Carries what a limb holds beyond its share over into the limb before it. Limbs of damaged files wrap
+/// round.
+inline void film_carry(std::int64_t& before, std::int64_t& limb) {
+  const std::int64_t whole = limb >> (kFilmLimbBits - 1);
+  const std::int64_t over = (whole + 1) >> 1;  // the nearest number of steps, of halves the next
+  const auto taken = static_cast<std::uint64_t>(over) << kFilmLimbBits;
+  limb = static_cast<std::int64_t>(static_cast<std::uint64_t>(limb) - taken);
+  before = static_cast<std::int64_t>(static_cast<std::uint64_t>(before) + static_cast<std::uint64_t>(over));
+}
+
 /// Three response curves as the film's kernels take them: of wavelengths the rows of FilmCurves, of bands the
 /// weights [bands][4].
 struct FilmResponse {
@@ -48,7 +58,6 @@ struct FilmTileLayout {
 struct FilmProfile {
   FloatBuffer pairs;
   kernels::EvenTable table;
-  float reach = 0;  ///< half a pixel and the radius
   float radius = 0.5F;
   int most_pixels = 1;  ///< that a sample reaches along the axis
 };

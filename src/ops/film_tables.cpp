@@ -76,7 +76,6 @@ Result<void> make_film_profile(FilmProfile& out, double radius, const std::funct
     out.pairs.data()[2 * i + 1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - at(i * step));
   }
   out.radius = static_cast<float>(radius);
-  out.reach = static_cast<float>(0.5 + radius);
   out.most_pixels = static_cast<int>(std::ceil(2 * radius)) + 1;
   out.table = {out.pairs.data(), 0, static_cast<float>(kProfileIntervals / radius), kProfileIntervals};
   return {};
