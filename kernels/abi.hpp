@@ -145,10 +145,10 @@ struct FilmGrid {
   double rest[4];
 };
 
-/// The same for the four limbs of the sum of w y^2, and the two of that of w^2.
+/// The same for the four limbs of the sum of w y^2, and the three of that of w^2.
 struct FilmMomentGrid {
   double luminance[4];
-  double weight[2];
+  double weight[3];
 };
 
 /// Where samples go: entry i adds sample[i] (i where that is null), times factor[i] (where there are any), to
@@ -324,30 +324,29 @@ struct KernelTable {
   /// quads[4 i ..]: (w X, w Y, w Z, w) of sample i, with X, Y, Z = ((sum over k of value * ratio_k) + (sum
   /// over k of difference * (part * ratio_k))) * factor, of the row that holds the wavelength and its part of
   /// the way to the next one, or the row of zeros; ratio_k = radiance_k / density_k, 0 where the density is
-  /// 0; where the largest magnitude m of the three is above limits.maximum, times
-  /// maximum / m; then times w = weight (1 where that is null). luminance[i] (where not null): Y before w.
-  /// reasons[i]: of the density that is not 0 and what goes with it NaN, infinite or negative, else
-  /// kFilmBeyondRange for a component, or a luminance asked for, beyond limits.range, or w beyond
-  /// limits.weight_range, else 0.
-  void (*film_weigh_wavelengths)(float* quads, float* luminance, std::int32_t* reasons,
+  /// 0; where the largest magnitude m of the three is above limits.maximum, (X / m) * maximum and so on; then
+  /// times w = weight (1 where that is null). reasons[i]: of the densities that are not 0 and what goes with
+  /// them NaN, infinite or negative, else kFilmBeyondRange for a component, or with `luminance` Y before w,
+  /// beyond limits.range, or w beyond limits.weight_range, else 0.
+  void (*film_weigh_wavelengths)(float* quads, bool luminance, std::int32_t* reasons,
                                  const FilmCurves& curves, const FilmLimits& limits,
                                  const float* const* radiance, const float* const* lambda_nm,
                                  const float* const* density, const float* weight, float factor,
                                  std::size_t count, std::size_t n) noexcept;
   /// the same for X, Y, Z = sums over bands of weights[band] * radiance_band; weights [bands][4]
-  void (*film_weigh_bands)(float* quads, float* luminance, std::int32_t* reasons, const float* weights,
+  void (*film_weigh_bands)(float* quads, bool luminance, std::int32_t* reasons, const float* weights,
                            const FilmLimits& limits, const float* const* radiance, const float* weight,
                            std::size_t bands, std::size_t n) noexcept;
-  /// quads[i * stride + b] = radiance_b * u for b < bands, 0 up to a multiple of 4, with u = w * (maximum /
-  /// m), or w where the largest magnitude m of the radiances is not above limits.maximum. reasons[i] becomes
-  /// kFilmBeyondRange where it was 0 and a product is beyond limits.range.
+  /// quads[i * stride + b] = radiance_b * w for b < bands, 0 up to a multiple of 4, with (radiance_b / m) *
+  /// maximum in its place where the largest magnitude m of the radiances is above limits.maximum. reasons[i]
+  /// becomes kFilmBeyondRange where it was 0 and a product is beyond limits.range.
   void (*film_band_quads)(float* quads, std::size_t stride, std::int32_t* reasons, const FilmLimits& limits,
                           const float* const* radiance, const float* weight, std::size_t bands,
                           std::size_t n) noexcept;
   /// band[k][i]: that which wavelength k falls into, or -1, also where its density is 0; hits[2 * (k * n +
-  /// i)]: radiance_k * u and u = (w * (reference / density_k)), the radiance times maximum / m where the
-  /// largest magnitude m of those with a density is above limits.maximum. reasons[i] becomes kFilmBeyondRange
-  /// where it was 0 and one of them is beyond its range.
+  /// i)]: radiance_k * u and u = (w * (reference / density_k)), with (radiance_k / m) * maximum in its place
+  /// where the largest magnitude m of those with a density is above limits.maximum. reasons[i] becomes
+  /// kFilmBeyondRange where it was 0 and one of them that falls into a band is beyond its range.
   void (*film_hits)(std::int32_t* band, float* hits, std::int32_t* reasons, const BucketTable& table,
                     const FilmLimits& limits, const float* const* radiance, const float* const* lambda_nm,
                     const float* const* density, const float* weight, float reference, std::size_t count,
@@ -371,10 +370,11 @@ struct KernelTable {
   void (*film_add_hits)(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
                         const FilmEntries& entries, const std::int32_t* band, const float* hits,
                         std::size_t count, std::size_t n, std::size_t bands) noexcept;
-  /// at tiles[tile] + offset + pixel * 8 adds: four limbs of (w * (y * y)), in double; two of w * w; 1; with
-  /// w = quads[4 * sample + 3] * factor
+  /// at tiles[tile] + offset + pixel * 8 adds, in double, with w = quads[4 * sample + 3] * factor and y =
+  /// quads[4 * sample + 1] * factor: four limbs of y * (y / w), 0 where w is 0; two of w * w; 1; the third of
+  /// w * w
   void (*film_add_moments)(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
-                           const FilmEntries& entries, const float* quads, const float* luminance) noexcept;
+                           const FilmEntries& entries, const float* quads) noexcept;
   /// adds 1 at tiles[tile] + offset + pixel
   void (*film_count)(std::int64_t* const* tiles, std::size_t offset, const FilmEntries& entries) noexcept;
 

@@ -169,14 +169,15 @@ inline double add_limb(std::int64_t& limb, double v, double magic) noexcept {
 }
 
 void film_add_moments(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
-                      const FilmEntries& entries, const float* quads, const float* luminance) noexcept {
+                      const FilmEntries& entries, const float* quads) noexcept {
   for_entries(tiles, offset, 8, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
     const auto w = static_cast<double>(quads[4 * sample + 3] * factor);
-    const auto y = static_cast<double>(luminance[sample]);
-    double left = w * (y * y);
+    const auto y = static_cast<double>(quads[4 * sample + 1] * factor);
+    double left = w == 0.0 ? 0.0 : y * (y / w);
     for (std::size_t k = 0; k < 4; ++k) left = add_limb(pixel[k], left, grid.luminance[k]);
     left = w * w;
     for (std::size_t k = 0; k < 2; ++k) left = add_limb(pixel[4 + k], left, grid.weight[k]);
+    add_limb(pixel[7], left, grid.weight[2]);
     ++pixel[6];
   });
 }

@@ -31,7 +31,7 @@ struct Faults {
 /// Clamps colours, weighs them and finds those beyond the film's range: a register of quads at a time.
 class Weighing {
  public:
-  Weighing(const FilmLimits& limits, float* quads, float* luminance, const float* weight)
+  Weighing(const FilmLimits& limits, float* quads, bool luminance, const float* weight)
       : quads_(quads),
         luminance_(luminance),
         weight_(weight),
@@ -46,7 +46,7 @@ class Weighing {
   bool surely_within(std::size_t i, F32 bound) const noexcept {
     const F32 w = weight_ == nullptr ? F32(1.0F) : xsimd::abs(load_any(weight_ + i));
     Mask good = (bound * w <= F32(range_)) & (w <= F32(weight_range_));
-    if (luminance_ != nullptr) good = good & (bound <= F32(range_));
+    if (luminance_) good = good & (bound <= F32(range_));
     return lane_bits(~good) == 0;
   }
 
@@ -55,9 +55,9 @@ class Weighing {
   void put(std::size_t i, F32 color) noexcept {
     if (clamps_) {
       const F32 most = largest_of_three(xsimd::abs(color));
-      color = xsimd::select(most > maximum_, color * (maximum_ / most), color);
+      color = xsimd::select(most > maximum_, (color / most) * maximum_, color);
     }
-    if (luminance_ != nullptr) put_luminance(i, color);
+    if (kLook && luminance_) put_luminance(i, color);
     F32 weighed = xsimd::select(last_of_quads(), F32(1.0F), color);
     if (weight_ != nullptr) weighed = weighed * spread_over_quads(weight_ + i);
     if constexpr (kLook) beyond_ = beyond_ | ~(xsimd::abs(weighed) <= limit_);
@@ -72,7 +72,7 @@ class Weighing {
       std::uint64_t bits = lane_bits(~(xsimd::abs(load_any(quads_ + 4 * i)) <= limit_));
       for (std::size_t q = 0; q < kQuads; ++q, bits >>= 4) {
         bool beyond = (bits & 15U) != 0;
-        if (luminance_ != nullptr) beyond = beyond || !(magnitude(luminance_[i + q]) <= range_);
+        if (luminance_) beyond = beyond || !(magnitude(seen_[(i + q) % kLanes]) <= range_);
         if (beyond && reasons[i + q] == kFilmAccepted) reasons[i + q] = kFilmBeyondRange;
       }
     }
@@ -82,13 +82,13 @@ class Weighing {
   void put_luminance(std::size_t i, F32 color) noexcept {
     alignas(64) float c[kWidth];
     store(c, color);
-    for (std::size_t q = 0; q < kQuads; ++q) luminance_[i + q] = c[4 * q + 1];
+    for (std::size_t q = 0; q < kQuads; ++q) seen_[(i + q) % kLanes] = c[4 * q + 1];
     const Mask beyond = ~(xsimd::abs(color) <= F32(range_));
     beyond_ = beyond_ | beyond;
   }
 
   float* quads_;
-  float* luminance_;
+  bool luminance_;
   const float* weight_;
   bool clamps_;
   F32 maximum_;
@@ -96,6 +96,7 @@ class Weighing {
   float weight_range_;
   F32 limit_;
   Mask beyond_ = F32(0.0F) > F32(0.0F);
+  float seen_[kLanes] = {};  ///< luminances of the samples put last
 };
 
 inline std::int32_t fault_at(const float* const* radiance, const float* const* lambda_nm,
@@ -172,7 +173,7 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
   }
 }
 
-void film_weigh_wavelengths(float* quads, float* luminance, std::int32_t* reasons, const FilmCurves& curves,
+void film_weigh_wavelengths(float* quads, bool luminance, std::int32_t* reasons, const FilmCurves& curves,
                             const FilmLimits& limits, const float* const* radiance,
                             const float* const* lambda_nm, const float* const* density, const float* weight,
                             float factor, std::size_t count, std::size_t n) noexcept {
@@ -187,7 +188,7 @@ void film_weigh_wavelengths(float* quads, float* luminance, std::int32_t* reason
   }
 }
 
-void film_weigh_bands(float* quads, float* luminance, std::int32_t* reasons, const float* weights,
+void film_weigh_bands(float* quads, bool luminance, std::int32_t* reasons, const float* weights,
                       const FilmLimits& limits, const float* const* radiance, const float* weight,
                       std::size_t bands, std::size_t n) noexcept {
   constexpr std::size_t kLanesAtOnce = kGroup * kWidth;
@@ -246,15 +247,17 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   const F32 maximum(limits.maximum);
   const F32 range(limits.range);
   alignas(64) float by[kWidth];
+  alignas(64) float sizes[kWidth];
   for (std::size_t i = 0; i < n; i += kWidth) {
     F32 most(0.0F);
     for (std::size_t b = 0; b < bands; ++b) {
       most = limit_below(most, xsimd::abs(load_any(radiance[b] + i)));
     }
-    F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
+    const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
     // A product grows with its factors, so the largest one tells for all.
-    if (clamps) w = xsimd::select(most > maximum, w * (maximum / most), w);
-    const std::uint64_t beyond = lane_bits(~(xsimd::abs(most * w) <= range));
+    const F32 largest = clamps ? limit_above(maximum, most) : most;
+    const std::uint64_t beyond = lane_bits(~(xsimd::abs(largest * w) <= range));
+    store(sizes, most);
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       const bool is = ((beyond >> lane) & 1U) != 0;
       if (is && reasons[i + lane] == kFilmAccepted) reasons[i + lane] = kFilmBeyondRange;
@@ -266,8 +269,11 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
       for (std::size_t b = 0; b < bands; b += 4) {
         Quad row[4];
         for (std::size_t j = 0; j < 4; ++j) {
-          row[j] =
-              b + j < bands ? quad_multiply(quad_load(radiance[b + j] + i + lane), factors) : quad_all(0.0F);
+          row[j] = quad_all(0.0F);
+          if (b + j >= bands) continue;
+          Quad sample = quad_load(radiance[b + j] + i + lane);
+          if (clamps) sample = quad_clamped(sample, quad_load(sizes + lane), limits.maximum);
+          row[j] = quad_multiply(sample, factors);
         }
         quad_transpose(row[0], row[1], row[2], row[3]);
         for (std::size_t j = 0; j < 4; ++j) quad_store(at + j * stride + b, row[j]);
@@ -305,14 +311,12 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
   alignas(64) float weights[kWidth];
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
-    F32 scale(1.0F);
+    F32 most = zero;
     if (clamps) {
-      F32 most = zero;
       for (std::size_t k = 0; k < count; ++k) {
         const Mask dead = load_any(density[k] + i) == zero;
         most = limit_below(most, xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))));
       }
-      scale = xsimd::select(most > maximum, maximum / most, scale);
     }
     std::uint64_t beyond = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -320,14 +324,15 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
       const Mask dead = pdf == zero;
       const F32 u = w * (F32(reference) / pdf);
       F32 radiant = load_any(radiance[k] + i);
-      if (clamps) radiant = radiant * scale;
+      if (clamps) radiant = xsimd::select(most > maximum, (radiant / most) * maximum, radiant);
       const F32 value = radiant * u;
       const I32 bucket = bucket_of(table, load_any(lambda_nm[k] + i));
       bits_as<std::int32_t>(xsimd::select(dead, bits_as<float>(I32(-1)), bits_as<float>(bucket)))
           .store_unaligned(band + k * n + i);
       const Mask fits =
           (xsimd::abs(value) <= F32(limits.range)) & (xsimd::abs(u) <= F32(limits.weight_range));
-      beyond |= lane_bits(~(fits | dead));
+      const Mask outside = xsimd::to_float(bucket) < zero;
+      beyond |= lane_bits(~(fits | dead | outside));
       store(values, value);
       store(weights, u);
       float* const to = hits + 2 * (k * n + i);

@@ -168,6 +168,17 @@ inline void quad_transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
 }
 #endif
 
+/// (v / size) * maximum where the size is larger than the maximum, else v.
+inline Quad quad_clamped(Quad v, Quad size, float maximum) {
+#if defined(__x86_64__)
+  const Quad all = quad_all(maximum);
+  return _mm_blendv_ps(v, _mm_mul_ps(_mm_div_ps(v, size), all), _mm_cmpgt_ps(size, all));
+#else
+  const Quad all = quad_all(maximum);
+  return vbslq_f32(vcgtq_f32(size, all), vmulq_f32(vdivq_f32(v, size), all), v);
+#endif
+}
+
 // --- Two doubles, and their counts of steps
 
 #if defined(__x86_64__)

@@ -165,9 +165,10 @@ class Film {
 
  private:
   friend struct FilmAccess;
+  friend class FilmDevelopment;
   struct State;
-  explicit Film(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Film(std::shared_ptr<State> state);
+  std::shared_ptr<State> state_;
 };
 
 /// What a film is developed into.
@@ -179,7 +180,8 @@ enum class FilmLayer {
   kSpectrum,   ///< a plane a band
   kWeight,     ///< 1 plane: the sum of the weights
   kCount,      ///< 1 plane: samples that reached the pixel
-  kVariance,   ///< 1 plane: of the pixel's luminance, estimated from its samples; infinite below two samples
+  kVariance,   ///< 1 plane: of the pixel's mean luminance, estimated from its samples; infinite where they tell
+               ///< nothing: below two samples, or where the sum of w^2 is not below the square of that of w
 };
 
 /// What one update of a development did.
@@ -192,7 +194,8 @@ struct DevelopStats {
 /// A picture of a film, kept up to date tile by tile.
 class FilmDevelopment {
  public:
-  /// The film must outlive it. `sensor` names one for FilmLayer::kSensor.
+  /// It shows the film that this one is now, wherever that is moved to, and keeps its sums alive: assigning
+  /// another film to the variable does not change the picture's. `sensor` names one for FilmLayer::kSensor.
   /// Errors: kBadArgument when the film does not keep what the layer needs; kOutOfMemory.
   static Result<FilmDevelopment> create(const Film& film, FilmLayer layer, std::size_t sensor = 0);
 
@@ -214,7 +217,7 @@ class FilmDevelopment {
 
  private:
   FilmDevelopment() = default;
-  const Film* film_ = nullptr;
+  std::shared_ptr<Film::State> film_;
   FilmLayer layer_ = FilmLayer::kXyz;
   std::size_t sensor_ = 0;
   PixelWindow window_;

@@ -25,7 +25,8 @@ struct FilmFileReport {
 Result<FilmFileReport> save_film(const Film& film, const std::string& path, const std::string& progress = {},
                                  const ImageOptions& options = {});
 
-/// A film from its file, and the note saved with it.
+/// A film from its file, and the note saved with it. Sensors in its options are those that are known by their
+/// names, or made from the curves in the file; the film itself goes on with the very curves of the one saved.
 struct LoadedFilm {
   Film film;
   std::string progress;

@@ -35,8 +35,9 @@ std::vector<FilmLimb> film_limbs(const FilmTileLayout& l) {
   for (std::size_t k = 0; l.moments && k < 4; ++k) {
     out.push_back({fmt::format("film.square.limb{}", k), l.moments_at + k, 8});
   }
-  for (std::size_t k = 0; l.moments && k < 2; ++k) {
-    out.push_back({fmt::format("film.weight2.limb{}", k), l.moments_at + 4 + k, 8});
+  constexpr std::size_t kOfSquares[] = {4, 5, 7};  // 6 is the count
+  for (std::size_t k = 0; l.moments && k < 3; ++k) {
+    out.push_back({fmt::format("film.weight2.limb{}", k), l.moments_at + kOfSquares[k], 8});
   }
   if (l.moments) out.push_back({"film.count", l.moments_at + 6, 8});
   if (l.counts) out.push_back({"film.count", l.counts_at, 1});

@@ -12,7 +12,7 @@
 
 namespace spectile {
 
-Film::Film(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Film::Film(std::shared_ptr<State> state) : state_(std::move(state)) {}
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;

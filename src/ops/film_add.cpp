@@ -86,7 +86,6 @@ Result<void> make_room(const State& s, std::size_t wavelengths, FilmScratch& scr
   };
   scratch.quad_floats = 4 * kChunk;
   SPECTILE_TRY(floats(scratch.quads, s.layout.quads * scratch.quad_floats));
-  if (s.layout.moments) SPECTILE_TRY(floats(scratch.luminance, kChunk));
   if (s.layout.bands > 0 && s.layout.own_weights) {
     SPECTILE_TRY(floats(scratch.hits, 2 * wavelengths * kChunk));
     scratch.band.resize(wavelengths * kChunk);
@@ -105,7 +104,7 @@ void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch
   const std::size_t count = batch.radiance.count;
   for (std::size_t c = 0; c < s.responses.size(); ++c) {
     float* const quads = scratch.quads.data() + c * scratch.quad_floats;
-    float* const luminance = c == 0 && s.layout.moments ? scratch.luminance.data() : nullptr;
+    const bool luminance = c == 0 && s.layout.moments;
     std::int32_t* const reasons = (c == 0 ? scratch.reasons : scratch.more_reasons).data();
     const float* const response = s.responses[c].table.data();
     if (s.options.input == FilmInput::kBands) {

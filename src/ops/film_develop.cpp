@@ -50,7 +50,7 @@ Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer laye
   const auto planes = planes_of(film.options(), layer, sensor);
   if (!planes) return planes.error();
   FilmDevelopment out;
-  out.film_ = &film;
+  out.film_ = film.state_;
   out.layer_ = layer;
   out.sensor_ = sensor;
   out.window_ = film.window();
@@ -71,7 +71,7 @@ Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer laye
 }
 
 Result<DevelopStats> FilmDevelopment::update(const Execution& how) {
-  const State& s = FilmAccess::state(*film_);
+  const State& s = *film_;
   std::atomic<std::size_t> developed = 0;
   std::atomic<std::size_t> unchanged = 0;
   std::atomic<std::size_t> untouched = 0;

@@ -21,8 +21,10 @@ static_assert(kFilmTilePixels == std::size_t{1} << kTileShift);
 /// steps a contribution comes near the end of its limb.
 constexpr std::uint64_t kSettleAfter = std::uint64_t{1} << 18;
 
-/// Changes of tile among so many entries that sorting them first does not pay.
-constexpr std::size_t kFewRuns = 16;
+/// Runs within a tile that are taken one by one, and entries that each must hold for that to pay: else they
+/// are sorted first.
+constexpr std::size_t kMostRuns = 128;
+constexpr std::size_t kEntriesARun = 8;
 
 std::size_t tile_of(std::int32_t address) {
   return static_cast<std::size_t>(address) >> kTileShift;
@@ -55,8 +57,7 @@ void run_kernels(State& s, const KernelTable& table, const FilmContributions& c,
                    8 * l.band_quads());
   }
   if (l.moments) {
-    table.film_add_moments(tiles, l.moments_at, s.moment_grid, entries, scratch.quads.data(),
-                           scratch.luminance.data());
+    table.film_add_moments(tiles, l.moments_at, s.moment_grid, entries, scratch.quads.data());
   }
   if (l.counts) table.film_count(tiles, l.counts_at, entries);
 }
@@ -117,20 +118,21 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
     return {};
   }
   // Runs of entries in one tile; those that reach no pixel belong to the run around them.
-  std::array<std::size_t, kFewRuns> run_ends{};
-  std::array<std::size_t, kFewRuns> run_tiles{};
+  std::array<std::size_t, kMostRuns> run_ends{};
+  std::array<std::size_t, kMostRuns> run_tiles{};
+  const std::size_t most = std::clamp<std::size_t>(entries.count / kEntriesARun, 1, kMostRuns);
   std::size_t runs = 0;
   std::int32_t last = -1;
-  for (std::size_t i = 0; i < entries.count && runs <= kFewRuns; ++i) {
+  for (std::size_t i = 0; i < entries.count && runs <= most; ++i) {
     const std::int32_t tile = entries.address[i] >> kTileShift;
     if (tile == last || entries.address[i] < 0) continue;
     if (runs > 0) run_ends[runs - 1] = i;
-    if (runs < kFewRuns) run_tiles[runs] = static_cast<std::size_t>(tile);
+    if (runs < most) run_tiles[runs] = static_cast<std::size_t>(tile);
     ++runs;
     last = tile;
   }
   if (runs == 0) return {};
-  if (runs <= kFewRuns) {
+  if (runs <= most) {
     run_ends[runs - 1] = entries.count;
     scratch.sample.resize(std::max(scratch.sample.size(), entries.count));
     std::size_t first = 0;

@@ -108,7 +108,13 @@ class FilmPixels {
     for (int k = 3; k >= 0; --k) {
       squares += static_cast<double>(limbs[k]) * std::ldexp(luminance_square_, -k * kFilmLimbBits);
     }
-    const double share = sum(m[4], m[5], weight_square_) / (w * w);
+    std::int64_t weights[3] = {m[4], m[5], m[7]};
+    for (int k = 2; k > 0; --k) film_carry(weights[k - 1], weights[k]);
+    double weight_squares = 0;
+    for (int k = 2; k >= 0; --k) {
+      weight_squares += static_cast<double>(weights[k]) * std::ldexp(weight_square_, -k * kFilmLimbBits);
+    }
+    const double share = weight_squares / (w * w);
     if (!(share < 1)) return std::numeric_limits<double>::infinity();
     const double mean = color(tile, pixel, 0, 1) / w;
     const double spread = squares / w - mean * mean;

@@ -10,7 +10,7 @@ namespace spectile {
 /// Grows to what the film's kinds of sums ask for, once.
 struct FilmScratch {
   std::size_t quad_floats = 0;  ///< from one response's quads to the next one's
-  FloatBuffer quads, luminance, band_quads, hits, padded, profiles;
+  FloatBuffer quads, band_quads, hits, padded, profiles;
   std::vector<std::int32_t> reasons, more_reasons, address, sorted_address, band;
   std::vector<std::uint32_t> sample, sorted_sample;
   std::vector<float> factor, sorted_factor;

@@ -12,8 +12,10 @@ using kernels::FilmReason;
 using kernels::kFilmTilePixels;
 using State = FilmAccess::State;
 
-/// Samples that become entries at once, so that the entries of wide filters stay in the caches.
+/// Most samples that become entries at once, and how many entries that should be about: they stay in the
+/// second-level cache.
 constexpr std::size_t kPart = 256;
+constexpr std::size_t kEntries = 16384;
 static_assert(kPart % kernels::kLanes == 0);
 
 /// A chunk's footprints along one axis: the first pixel of each sample, and the filter's profile from there.
@@ -35,9 +37,11 @@ struct Axis {
     for (int j = 0; j < profile.most_pixels; ++j) {
       float* const row = weights + static_cast<std::size_t>(j) * kPart;
       for (std::size_t i = 0; i < n; ++i) {
-        const float distance = (static_cast<float>(first[i] + j) + 0.5F) - position[i];
-        // Beyond the table, and so 0, at and before the near end.
-        row[i] = distance <= -profile.radius ? 2 * profile.radius : std::abs(distance);
+        const double distance = (static_cast<double>(first[i] + j) + 0.5) - static_cast<double>(position[i]);
+        const auto radius = static_cast<double>(profile.radius);
+        // Beyond the table, and so 0, at and before the near end and beyond the far one.
+        const bool inside = distance > -radius && distance <= radius;
+        row[i] = inside ? static_cast<float>(std::abs(distance)) : 2 * profile.radius;
       }
       table.look_up_even(row, row, profile.table, kPart);
     }
@@ -82,8 +86,9 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
   std::vector<std::uint32_t>& sample = scratch.sample;
   std::vector<std::int32_t>& address = scratch.address;
   std::vector<float>& factor = scratch.factor;
-  for (std::size_t start = 0; start < n; start += kPart) {
-    const std::size_t part = std::min(kPart, n - start);
+  const std::size_t at_once = std::clamp<std::size_t>(kEntries / (columns * rows), 1, kPart);
+  for (std::size_t start = 0; start < n; start += at_once) {
+    const std::size_t part = std::min(at_once, n - start);
     Axis across{s.along_x, x + start, s.window.x0, s.window.x1, first_x.data(), scratch.profiles.data()};
     Axis down{s.along_y,   y + start,      s.window.y0,
               s.window.y1, first_y.data(), scratch.profiles.data() + columns * kPart};

@@ -52,6 +52,10 @@ Result<void> check_contents(const FilmOptions& o) {
   if (o.statistics == PixelStatistics::kVariance && !o.xyz && o.sensors.empty()) {
     return make_error(ErrorCode::kBadArgument, "variance is that of a colour, and the film keeps none");
   }
+  for (const NamedSensor& sensor : o.sensors) {
+    if (sensor.name.find('\0') == std::string::npos) continue;
+    return make_error(ErrorCode::kBadArgument, "a sensor's name holds a zero byte, which files cannot keep");
+  }
   if (!(o.maximum_component > 0)) {
     return make_error(ErrorCode::kBadArgument, "a maximum component of {} is not above 0",
                       o.maximum_component);
@@ -96,7 +100,7 @@ void make_grids(FilmAccess::State& s) {
   const int square = 2 * s.options.range + s.options.weight_range - kFilmCoarseBits;
   for (int k = 0; k < 4; ++k) s.moment_grid.luminance[k] = magic(square - k * kFilmLimbBits);
   const int weight_square = 2 * s.options.weight_range - kFilmCoarseBits;
-  for (int k = 0; k < 2; ++k) s.moment_grid.weight[k] = magic(weight_square - k * kFilmLimbBits);
+  for (int k = 0; k < 3; ++k) s.moment_grid.weight[k] = magic(weight_square - k * kFilmLimbBits);
 }
 
 }  // namespace
@@ -155,6 +159,7 @@ void Film::State::settle(std::size_t tile) noexcept {
     for (std::size_t p = 0; p < kFilmTilePixels; ++p) {
       std::int64_t* const m = moments + 8 * p;
       for (std::size_t k = 3; k > 0; --k) film_carry(m[k - 1], m[k]);
+      film_carry(m[5], m[7]);
       film_carry(m[4], m[5]);
       for (const std::int64_t v : {m[0], m[4]}) fits = fits && v <= kMostCoarse && v >= -kMostCoarse;
     }

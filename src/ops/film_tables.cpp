@@ -11,8 +11,10 @@
 namespace spectile {
 namespace {
 
-/// With 2048 intervals a profile of unit height is met within 1e-6.
-constexpr std::int32_t kProfileIntervals = 2048;
+/// A profile is met within this of its height, or as near as the longest table comes.
+constexpr std::int32_t kLeastIntervals = 2048;
+constexpr std::int32_t kMostIntervals = 65536;
+constexpr double kProfileError = 5e-7;
 
 }  // namespace
 
@@ -67,17 +69,39 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
 }
 
 Result<void> make_film_profile(FilmProfile& out, double radius, const std::function<double(double)>& at) {
-  auto memory = FloatBuffer::create(std::size_t{2} * kProfileIntervals);
+  // The intervals are halved until the straight lines between them are near enough.
+  std::int32_t intervals = kLeastIntervals;
+  double peak = 0;
+  for (double worst = 1; worst > kProfileError && intervals <= kMostIntervals; intervals *= 2) {
+    const double step = radius / intervals;
+    worst = 0;
+    for (std::int32_t i = 0; i < intervals; ++i) {
+      const double here = at(i * step);
+      peak = std::max(peak, std::abs(here));
+      worst = std::max(worst, std::abs(at((i + 0.5) * step) - 0.5 * (here + at(std::min(radius, (i + 1) * step)))));
+    }
+  }
+  intervals /= 2;
+  // The film's range holds for contributions at the centre of the filter: nowhere may it be higher.
+  constexpr double kRoundings = 1e-6;
+  if (!(peak <= 1 + kRoundings)) {
+    return make_error(ErrorCode::kBadArgument,
+                      "the filter reaches {:.3g} times its value at the centre; a film splats filters that are "
+                      "largest there",
+                      peak);
+  }
+  auto memory = FloatBuffer::create(2 * static_cast<std::size_t>(intervals));
   if (!memory) return memory.error();
   out.pairs = *std::move(memory);
-  const double step = radius / kProfileIntervals;
-  for (std::int32_t i = 0; i < kProfileIntervals; ++i) {
-    out.pairs.data()[2 * i] = static_cast<float>(at(i * step));
-    out.pairs.data()[2 * i + 1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - at(i * step));
+  const double step = radius / intervals;
+  for (std::int32_t i = 0; i < intervals; ++i) {
+    const double here = at(i * step);
+    out.pairs.data()[2 * i] = static_cast<float>(here);
+    out.pairs.data()[2 * i + 1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - here);
   }
   out.radius = static_cast<float>(radius);
   out.most_pixels = static_cast<int>(std::ceil(2 * radius)) + 1;
-  out.table = {out.pairs.data(), 0, static_cast<float>(kProfileIntervals / radius), kProfileIntervals};
+  out.table = {out.pairs.data(), 0, static_cast<float>(intervals / radius), intervals};
   return {};
 }
 

@@ -22,21 +22,17 @@ bool beyond(float v, float limit) {
 }
 
 /// What is left of weighing once a sample has a colour. Returns whether it is within the range.
-bool put(float* quad, float* luminance, std::array<float, 3> color, const FilmLimits& limits, float weight) {
+bool put(float* quad, bool luminance, std::array<float, 3> color, const FilmLimits& limits, float weight) {
   if (std::isfinite(limits.maximum)) {
     float most = std::abs(color[0]);
     if (most < std::abs(color[1])) most = std::abs(color[1]);
     if (most < std::abs(color[2])) most = std::abs(color[2]);
     if (most > limits.maximum) {
-      const float by = limits.maximum / most;
-      for (float& v : color) v *= by;
+      for (float& v : color) v = (v / most) * limits.maximum;
     }
   }
   bool fits = !beyond(weight, limits.weight_range);
-  if (luminance != nullptr) {
-    *luminance = color[1];
-    fits = fits && !beyond(color[1], limits.range);
-  }
+  if (luminance) fits = fits && !beyond(color[1], limits.range);
   for (std::size_t c = 0; c < 3; ++c) {
     quad[c] = color[c] * weight;
     fits = fits && !beyond(quad[c], limits.range);
@@ -92,7 +88,7 @@ std::int32_t band_at(const BucketTable& table, float lambda) {
 
 }  // namespace
 
-void film_weigh_wavelengths(float* quads, float* luminance, std::int32_t* reasons, const FilmCurves& curves,
+void film_weigh_wavelengths(float* quads, bool luminance, std::int32_t* reasons, const FilmCurves& curves,
                             const FilmLimits& limits, const float* const* radiance,
                             const float* const* lambda_nm, const float* const* density, const float* weight,
                             float factor, std::size_t count, std::size_t n) noexcept {
@@ -122,13 +118,13 @@ void film_weigh_wavelengths(float* quads, float* luminance, std::int32_t* reason
     std::array<float, 3> sum{};
     for (std::size_t c = 0; c < 3; ++c) sum[c] = (values[c] + differences[c]) * factor;
     const bool fits =
-        put(quads + 4 * i, luminance == nullptr ? nullptr : luminance + i, sum, limits, weight_of(weight, i));
+        put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
     reasons[i] = first_reason(nan, infinite, negative);
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }
 }
 
-void film_weigh_bands(float* quads, float* luminance, std::int32_t* reasons, const float* weights,
+void film_weigh_bands(float* quads, bool luminance, std::int32_t* reasons, const float* weights,
                       const FilmLimits& limits, const float* const* radiance, const float* weight,
                       std::size_t bands, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
@@ -146,7 +142,7 @@ void film_weigh_bands(float* quads, float* luminance, std::int32_t* reasons, con
       for (std::size_t c = 0; c < 3; ++c) sum[c] += run[c];
     }
     const bool fits =
-        put(quads + 4 * i, luminance == nullptr ? nullptr : luminance + i, sum, limits, weight_of(weight, i));
+        put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
     reasons[i] = first_reason(nan, infinite, false);
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }
@@ -158,11 +154,13 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   for (std::size_t i = 0; i < n; ++i) {
     float most = 0;
     for (std::size_t b = 0; b < bands; ++b) most = std::max(most, std::abs(radiance[b][i]));
-    float w = weight_of(weight, i);
-    if (std::isfinite(limits.maximum) && most > limits.maximum) w *= limits.maximum / most;
+    const float w = weight_of(weight, i);
+    const bool clamps = std::isfinite(limits.maximum) && most > limits.maximum;
     float* const quad = quads + i * stride;
     for (std::size_t b = 0; b < (bands + 3) / 4 * 4; ++b) {
-      quad[b] = b < bands ? radiance[b][i] * w : 0.0F;
+      const float v = b < bands ? radiance[b][i] : 0.0F;
+      quad[b] = (clamps ? (v / most) * limits.maximum : v) * w;
+      if (b >= bands) quad[b] = 0;
       if (reasons[i] == kFilmAccepted && beyond(quad[b], limits.range)) reasons[i] = kFilmBeyondRange;
     }
   }
@@ -178,16 +176,16 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
     for (std::size_t k = 0; k < count; ++k) {
       if (density[k][i] != 0.0F) most = std::max(most, std::abs(radiance[k][i]));
     }
-    const float scale = clamps && most > limits.maximum ? limits.maximum / most : 1.0F;
     bool fits = true;
     for (std::size_t k = 0; k < count; ++k) {
       const bool live = density[k][i] != 0.0F;
       const float u = weight_of(weight, i) * (reference / density[k][i]);
-      const float value = radiance[k][i] * scale * u;
+      const bool too_large = clamps && most > limits.maximum;
+      const float value = (too_large ? (radiance[k][i] / most) * limits.maximum : radiance[k][i]) * u;
       band[k * n + i] = live ? band_at(table, lambda_nm[k][i]) : -1;
       hits[2 * (k * n + i)] = value;
       hits[2 * (k * n + i) + 1] = u;
-      fits = fits && (!live || (!beyond(value, limits.range) && !beyond(u, limits.weight_range)));
+      fits = fits && (band[k * n + i] < 0 || (!beyond(value, limits.range) && !beyond(u, limits.weight_range)));
     }
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }
@@ -259,15 +257,19 @@ void film_add_hits(std::int64_t* const* tiles, std::size_t offset, const FilmGri
 }
 
 void film_add_moments(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
-                      const FilmEntries& entries, const float* quads, const float* luminance) noexcept {
+                      const FilmEntries& entries, const float* quads) noexcept {
   for (std::size_t i = 0; i < entries.count; ++i) {
     if (entries.address[i] < 0) continue;
     std::int64_t* const pixel = place_of(tiles, offset, 8, entries.address[i]);
     const std::size_t sample = sample_of(entries, i);
     const auto w = static_cast<double>(quads[4 * sample + 3] * factor_of(entries, i));
-    const auto y = static_cast<double>(luminance[sample]);
-    add_limbs(pixel, 1, w * (y * y), grid.luminance, 4);
-    add_limbs(pixel + 4, 1, w * w, grid.weight, 2);
+    const auto y = static_cast<double>(quads[4 * sample + 1] * factor_of(entries, i));
+    add_limbs(pixel, 1, w == 0.0 ? 0.0 : y * (y / w), grid.luminance, 4);
+    std::int64_t square[3] = {pixel[4], pixel[5], pixel[7]};
+    add_limbs(square, 1, w * w, grid.weight, 3);
+    pixel[4] = square[0];
+    pixel[5] = square[1];
+    pixel[7] = square[2];
     ++pixel[6];
   }
 }
