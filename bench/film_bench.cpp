@@ -19,9 +19,10 @@ namespace {
 using bench::Line;
 using Clock = std::chrono::steady_clock;
 
-// Enough for a quartile, and little enough for three minutes.
-constexpr int kRounds = 9;
-constexpr int kQuickRounds = 2;
+// Enough for quartiles, and few enough for three minutes; on a slow or busy machine fewer.
+constexpr std::size_t kRounds = 9;
+constexpr std::size_t kQuickRounds = 2;
+constexpr double kMostSeconds = 140;
 /// Floats that are copied: a GiB read and written, beyond what the caches of today's servers hold.
 constexpr std::size_t kCopied = std::size_t{1} << 27;
 /// What a sample carries beside its position: 4 wavelengths with radiance and density, and a weight.
@@ -39,10 +40,14 @@ struct Timed {
   double rate() const { return line.samples / quantile(0.5); }
 };
 
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 double seconds_of(const std::function<void()>& what) {
   const auto start = Clock::now();
   what();
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return seconds_since(start);
 }
 
 /// Names are those of a line without its order.
@@ -108,7 +113,8 @@ void print_limits(double copy_rate) {
   fmt::print(
       "\ncopying memory: {:.1f} GB/s, read and written counted. Of samples at random with 64 bytes a pixel "
       "it "
-      "allows {} (position and pixel, as here), or {} where all that a sample carries comes from memory\n",
+      "allows {} (position and pixel, as here), or {} where all that a sample carries comes from memory; a "
+      "film that a shared cache holds goes beyond\n",
       copy_rate * 1e-9, limit(8 + 128), limit(8 + kSampleBytes + 128));
 }
 
@@ -120,12 +126,14 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: {} [--quick]\n", argv[0]);
     return 2;
   }
-  const int rounds = quick ? kQuickRounds : kRounds;
+  const std::size_t rounds = quick ? kQuickRounds : kRounds;
   const auto isa = report::need(spectile::active_isa());
+  const auto start = Clock::now();
   std::vector<Line> ways;
   bench::add_baselines(ways);
   bench::add_films(ways);
   std::vector<Timed> lines;
+  // Lines of a kind share a film: the last of each kind leaves all of it touched.
   for (Line& way : ways) {
     Timed t{std::move(way), 0, 0, {}};
     t.line.fresh();
@@ -141,14 +149,15 @@ int main(int argc, char** argv) {
   std::vector<std::size_t> turns(lines.size() + 1);
   for (std::size_t i = 0; i < turns.size(); ++i) turns[i] = i;
   std::mt19937 engine(5);
-  // The first round only touches what the films above have not.
-  for (int round = 0; round <= rounds; ++round) {
+  while (copies.size() < rounds && (copies.size() < kQuickRounds || seconds_since(start) < kMostSeconds)) {
     std::shuffle(turns.begin(), turns.end(), engine);
     for (const std::size_t turn : turns) {
-      const bool copy = turn == lines.size();
-      const double seconds =
-          seconds_of(copy ? [&] { machine::copy(to.data(), from.data(), kCopied); } : lines[turn].line.pass);
-      if (round > 0) (copy ? copies : lines[turn].seconds).push_back(seconds);
+      const auto copy = [&] { machine::copy(to.data(), from.data(), kCopied); };
+      if (turn == lines.size()) {
+        copies.push_back(seconds_of(copy));
+      } else {
+        lines[turn].seconds.push_back(seconds_of(lines[turn].line.pass));
+      }
     }
   }
   for (Timed& t : lines) std::sort(t.seconds.begin(), t.seconds.end());
