@@ -200,8 +200,8 @@ void write_plot(const char* path, const std::vector<Series>& all) {
     plot.keys.push_back(
         {fmt::format("{} wavelength{}", k, k == 1 ? "" : "s"), {color_of(k), false, false, {}, {}}});
   }
-  plot.keys.push_back({"drawn evenly", {"#202020", false, false, {}, {}}});
-  plot.keys.push_back({"drawn as the eye sees", {"#202020", true, false, {}, {}}});
+  plot.keys.push_back({"uniform", {"#202020", false, false, {}, {}}});
+  plot.keys.push_back({"visible", {"#202020", true, false, {}, {}}});
   // Below the lines, down to the picture's end.
   constexpr double kGuide = 0.02;
   const double guide_end = std::min(plot.x1, std::pow(kGuide / plot.y0, 2));
