@@ -83,7 +83,8 @@ void print_lines(const std::vector<Timed>& lines, double copy_rate) {
 
 int print_ratios(const std::vector<Timed>& lines) {
   int missed = 0;
-  fmt::print("\n{:<28} {:<24} {:<16} {:>7} {:>7}\n", "", "against", "order", "ratio", "target");
+  fmt::print("\n{:<28} {:<24} {:<16} {:>7} {:>10} {:>7}\n", "", "against", "order", "ratio", "best/best",
+             "target");
   for (const Comparison& c : kComparisons) {
     for (const Timed& t : lines) {
       if (t.line.name != c.line) continue;
@@ -92,10 +93,12 @@ int print_ratios(const std::vector<Timed>& lines) {
       });
       if (base == lines.end()) continue;
       const double ratio = t.rate() / base->rate();
+      // Of the fastest passes, which other load on the machine disturbs least.
+      const double best = (t.line.samples / t.seconds[0]) / (base->line.samples / base->seconds[0]);
       const double target = t.line.order == "random"           ? c.random_target
                             : t.line.order.starts_with("tile") ? c.tile_target
                                                                : 0;
-      fmt::print("{:<28} {:<24} {:<16} {:>7.2f}", c.line, c.baseline, t.line.order, ratio);
+      fmt::print("{:<28} {:<24} {:<16} {:>7.2f} {:>10.2f}", c.line, c.baseline, t.line.order, ratio, best);
       if (target > 0) {
         missed += ratio < target ? 1 : 0;
         fmt::print(" {:>7.1f} {}", target, ratio < target ? "MISSED" : "met");
