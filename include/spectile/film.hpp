@@ -180,8 +180,9 @@ enum class FilmLayer {
   kSpectrum,   ///< a plane a band
   kWeight,     ///< 1 plane: the sum of the weights
   kCount,      ///< 1 plane: samples that reached the pixel
-  kVariance,   ///< 1 plane: of the pixel's mean luminance, estimated from its samples; infinite where they tell
-               ///< nothing: below two samples, or where the sum of w^2 is not below the square of that of w
+  kVariance,   ///< 1 plane: of the pixel's mean luminance, estimated from its samples; infinite where they
+              ///< tell nothing: below two samples, or where the sum of w^2 is not below the square of that of
+              ///< w
 };
 
 /// What one update of a development did.

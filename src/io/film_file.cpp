@@ -157,7 +157,8 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
                             const ImageOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   if (progress.find('\0') != std::string::npos) {
-    return make_error(ErrorCode::kBadArgument, "{}: the progress text holds a zero byte, which files cannot keep", path);
+    return make_error(ErrorCode::kBadArgument,
+                      "{}: the progress text holds a zero byte, which files cannot keep", path);
   }
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();

@@ -78,17 +78,19 @@ Result<void> make_film_profile(FilmProfile& out, double radius, const std::funct
     for (std::int32_t i = 0; i < intervals; ++i) {
       const double here = at(i * step);
       peak = std::max(peak, std::abs(here));
-      worst = std::max(worst, std::abs(at((i + 0.5) * step) - 0.5 * (here + at(std::min(radius, (i + 1) * step)))));
+      worst = std::max(worst,
+                       std::abs(at((i + 0.5) * step) - 0.5 * (here + at(std::min(radius, (i + 1) * step)))));
     }
   }
   intervals /= 2;
   // The film's range holds for contributions at the centre of the filter: nowhere may it be higher.
   constexpr double kRoundings = 1e-6;
   if (!(peak <= 1 + kRoundings)) {
-    return make_error(ErrorCode::kBadArgument,
-                      "the filter reaches {:.3g} times its value at the centre; a film splats filters that are "
-                      "largest there",
-                      peak);
+    return make_error(
+        ErrorCode::kBadArgument,
+        "the filter reaches {:.3g} times its value at the centre; a film splats filters that are "
+        "largest there",
+        peak);
   }
   auto memory = FloatBuffer::create(2 * static_cast<std::size_t>(intervals));
   if (!memory) return memory.error();

@@ -117,8 +117,7 @@ void film_weigh_wavelengths(float* quads, bool luminance, std::int32_t* reasons,
     }
     std::array<float, 3> sum{};
     for (std::size_t c = 0; c < 3; ++c) sum[c] = (values[c] + differences[c]) * factor;
-    const bool fits =
-        put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
+    const bool fits = put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
     reasons[i] = first_reason(nan, infinite, negative);
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }
@@ -141,8 +140,7 @@ void film_weigh_bands(float* quads, bool luminance, std::int32_t* reasons, const
       }
       for (std::size_t c = 0; c < 3; ++c) sum[c] += run[c];
     }
-    const bool fits =
-        put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
+    const bool fits = put(quads + 4 * i, luminance, sum, limits, weight_of(weight, i));
     reasons[i] = first_reason(nan, infinite, false);
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }
@@ -185,7 +183,8 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
       band[k * n + i] = live ? band_at(table, lambda_nm[k][i]) : -1;
       hits[2 * (k * n + i)] = value;
       hits[2 * (k * n + i) + 1] = u;
-      fits = fits && (band[k * n + i] < 0 || (!beyond(value, limits.range) && !beyond(u, limits.weight_range)));
+      fits =
+          fits && (band[k * n + i] < 0 || (!beyond(value, limits.range) && !beyond(u, limits.weight_range)));
     }
     if (reasons[i] == kFilmAccepted && !fits) reasons[i] = kFilmBeyondRange;
   }

@@ -144,7 +144,8 @@ TEST(FilmSplat, WideFiltersAtTheCornersOfAnUnalignedCrop) {
 }
 
 TEST(FilmSplat, FiltersHigherThanAtTheirCentresAreRefused) {
-  // A Mitchell filter with b near 3 is far higher beside its centre than there, and so would be contributions.
+  // A Mitchell filter with b near 3 is far higher beside its centre than there, and so would be
+  // contributions.
   for (const double b : {2.9, 2.9999999}) {
     const auto filter = PixelFilter::mitchell(2, 2, b, -30);
     if (!filter) continue;
