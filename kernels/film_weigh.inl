@@ -251,7 +251,7 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   for (std::size_t i = 0; i < n; i += kWidth) {
     F32 most(0.0F);
     for (std::size_t b = 0; b < bands; ++b) {
-      most = limit_below(most, xsimd::abs(load_any(radiance[b] + i)));
+      most = limit_below(xsimd::abs(load_any(radiance[b] + i)), most);  // NaN passed over
     }
     const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
     // A product grows with its factors, so the largest one tells for all.
@@ -315,7 +315,7 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
     if (clamps) {
       for (std::size_t k = 0; k < count; ++k) {
         const Mask dead = load_any(density[k] + i) == zero;
-        most = limit_below(most, xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))));
+        most = limit_below(xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))), most);
       }
     }
     std::uint64_t beyond = 0;

@@ -162,10 +162,14 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
     const std::size_t first = stripe == 0 ? 0 : ends[stripe - 1];
     if (first == ends[stripe]) continue;
     const std::scoped_lock lock(s.stripes[stripe].mutex);
-    for (std::size_t i = first; i < ends[stripe]; ++i) {
+    for (std::size_t i = first; i < ends[stripe];) {
       const std::size_t tile = tile_of(sorted.address[i]);
-      if (!expect(s, tile, 1, weight)) return no_memory();
-      fetch(s, s.tiles[tile], static_cast<std::size_t>(sorted.address[i]) % kFilmTilePixels);
+      std::size_t end = i + 1;
+      while (end < ends[stripe] && tile_of(sorted.address[end]) == tile) ++end;
+      if (!expect(s, tile, end - i, weight)) return no_memory();
+      for (; i < end; ++i) {
+        fetch(s, s.tiles[tile], static_cast<std::size_t>(sorted.address[i]) % kFilmTilePixels);
+      }
     }
     run_kernels(s, table, contributions, part_of(sorted, first, ends[stripe] - first, -1, nullptr), scratch);
   }

@@ -83,10 +83,13 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
   }
   std::array<int, kPart> first_x{};
   std::array<int, kPart> first_y{};
-  std::vector<std::uint32_t>& sample = scratch.sample;
-  std::vector<std::int32_t>& address = scratch.address;
-  std::vector<float>& factor = scratch.factor;
   const std::size_t at_once = std::clamp<std::size_t>(kEntries / (columns * rows), 1, kPart);
+  const std::size_t most = at_once * columns * rows;
+  scratch.sample.resize(std::max(scratch.sample.size(), most));
+  scratch.address.resize(std::max(scratch.address.size(), most));
+  scratch.factor.resize(std::max(scratch.factor.size(), most));
+  // What a column adds to an address.
+  std::vector<std::int32_t> column_part(columns);
   for (std::size_t start = 0; start < n; start += at_once) {
     const std::size_t part = std::min(at_once, n - start);
     Axis across{s.along_x, x + start, s.window.x0, s.window.x1, first_x.data(), scratch.profiles.data()};
@@ -94,37 +97,39 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
               s.window.y1, first_y.data(), scratch.profiles.data() + columns * kPart};
     across.measure(table, part);
     down.measure(table, part);
-    sample.clear();
-    address.clear();
-    factor.clear();
+    std::size_t count = 0;
     for (std::size_t i = 0; i < part; ++i) {
-      const std::size_t before = sample.size();
+      const std::size_t before = count;
       const bool near = std::abs(x[start + i]) < 0x1p22F && std::abs(y[start + i]) < 0x1p22F;
-      for (int r = down.from(i); near && r < down.to(i); ++r) {
+      const int from = across.from(i);
+      const int to = near ? across.to(i) : from;
+      for (int c = from; c < to; ++c) {
+        const int px = first_x[i] + c - s.kernel_window.origin_x;
+        column_part[static_cast<std::size_t>(c)] =
+            px / kFilmTile * static_cast<int>(kFilmTilePixels) + px % kFilmTile;
+      }
+      for (int r = down.from(i); from < to && r < down.to(i); ++r) {
         const float by_row = down.weights[static_cast<std::size_t>(r) * kPart + i];
         const int py = first_y[i] + r - s.kernel_window.origin_y;
-        for (int c = across.from(i); c < across.to(i); ++c) {
+        const std::int32_t row_part =
+            py / kFilmTile * s.tiles_x * static_cast<int>(kFilmTilePixels) + py % kFilmTile * kFilmTile;
+        for (int c = from; c < to; ++c) {
           const float f = across.weights[static_cast<std::size_t>(c) * kPart + i] * by_row;
-          if (f == 0.0F) continue;
-          const int px = first_x[i] + c - s.kernel_window.origin_x;
-          const int tile = (py / kFilmTile) * s.tiles_x + px / kFilmTile;
-          sample.push_back(static_cast<std::uint32_t>(start + i));
-          address.push_back(tile * static_cast<int>(kFilmTilePixels) + (py % kFilmTile) * kFilmTile +
-                            px % kFilmTile);
-          factor.push_back(f);
+          scratch.sample[count] = static_cast<std::uint32_t>(start + i);
+          scratch.address[count] = row_part + column_part[static_cast<std::size_t>(c)];
+          scratch.factor[count] = f;
+          count += f != 0.0F ? 1 : 0;
         }
       }
       const std::int32_t reason =
           reason_of(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
-                    scratch.reasons[start + i], sample.size() > before);
+                    scratch.reasons[start + i], count > before);
       ++counts[static_cast<std::size_t>(reason)];
-      if (reason == kernels::kFilmAccepted) continue;
-      sample.resize(before);
-      address.resize(before);
-      factor.resize(before);
+      if (reason != kernels::kFilmAccepted) count = before;
     }
     SPECTILE_TRY(add_entries(s, table, contributions,
-                             {sample.data(), address.data(), factor.data(), sample.size()}, scratch));
+                             {scratch.sample.data(), scratch.address.data(), scratch.factor.data(), count},
+                             scratch));
   }
   return {};
 }
