@@ -15,6 +15,7 @@
 #include <spectile/measured_spectrum.hpp>
 #include <spectile/named_spectra.hpp>
 #include <spectile/pixel_filter.hpp>
+#include <spectile/plan.hpp>
 #include <spectile/procedural_scene.hpp>
 #include <spectile/radiometry.hpp>
 #include <spectile/relight.hpp>

@@ -12,7 +12,6 @@
 namespace spectile {
 namespace {
 
-using kernels::kFilmTilePixels;
 using State = FilmAccess::State;
 
 Result<std::size_t> planes_of(const FilmOptions& o, FilmLayer layer, std::size_t sensor) {

@@ -8,7 +8,6 @@
 namespace spectile {
 namespace {
 
-using kernels::FilmReason;
 using kernels::kFilmTilePixels;
 using State = FilmAccess::State;
 

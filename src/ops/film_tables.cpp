@@ -31,7 +31,7 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
     edges.push_back(static_cast<float>(band.upper_nm));
     s.bucket_bands.push_back(-1);
   }
-  if (!std::is_sorted(edges.begin(), edges.end(), std::less_equal<float>())) {
+  if (!std::is_sorted(edges.begin(), edges.end(), std::less_equal<>())) {
     return make_error(ErrorCode::kBadArgument, "bands {} have edges that float cannot tell apart",
                       s.options.bands.description());
   }
@@ -98,8 +98,9 @@ Result<void> make_film_profile(FilmProfile& out, double radius, const std::funct
   const double step = radius / intervals;
   for (std::int32_t i = 0; i < intervals; ++i) {
     const double here = at(i * step);
-    out.pairs.data()[2 * i] = static_cast<float>(here);
-    out.pairs.data()[2 * i + 1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - here);
+    float* const pair = out.pairs.data() + std::ptrdiff_t{2} * i;
+    pair[0] = static_cast<float>(here);
+    pair[1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - here);
   }
   out.radius = static_cast<float>(radius);
   out.most_pixels = static_cast<int>(std::ceil(2 * radius)) + 1;

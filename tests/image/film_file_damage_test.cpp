@@ -102,6 +102,15 @@ TEST(FilmFileDamage, LimbsOfAnyBits) {
   }
 }
 
+/// The header but for one attribute. OpenEXR 3.1's Header::erase leaks what it takes out.
+Imf::Header without(const Imf::Header& header, const std::string& name) {
+  Imf::Header out(header.displayWindow(), header.dataWindow());
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    if (name != it.name()) out.insert(it.name(), it.attribute());
+  }
+  return out;
+}
+
 TEST(FilmFileDamage, AttributesMissingOrChangedAreNamed) {
   const TempFolder folder;
   Picture good = read_picture(saved_film(folder));
@@ -113,7 +122,7 @@ TEST(FilmFileDamage, AttributesMissingOrChangedAreNamed) {
   EXPECT_GE(names.size(), 15U);
   for (const std::string& name : names) {
     Picture bad = good;
-    bad.header.erase(name);
+    bad.header = without(good.header, name);
     write_scanlines(folder / "bad.exr", bad);
     EXPECT_FALSE(loads(folder / "bad.exr")) << name << " missing";
     for (const char* text : {"", "?", "-1", "nan", "1e400", "99999999999999999999", "1 2 3 4 5", "0 0 0 0",

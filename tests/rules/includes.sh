@@ -17,7 +17,7 @@ only_in '[a-z]*mmintrin\.h|immintrin\.h|arm_neon\.h' 'intrinsics' 'kernels/simd\
 only_in '(oneapi/)?tbb' 'oneTBB' 'src/ops/tiles\.cpp'
 only_in 'OpenEXR|Imf|Imath' 'OpenEXR' 'src/io/'
 only_in 'libdeflate' 'libdeflate' 'src/io/zip_encoder\.cpp'
-only_in 'Eigen' 'Eigen' 'src/ops/quadratic_program\.cpp'
+only_in 'Eigen' 'Eigen' 'src/ops/(quadratic_program|plan_[a-z]+)\.[ch]pp'
 only_in 'CLI/' 'CLI11' 'src/cli/'
 only_in 'nlohmann' 'nlohmann-json' 'src/cli/'
 only_in 'fmt/' 'fmt' 'src/'

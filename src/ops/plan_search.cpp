@@ -1,0 +1,160 @@
+// Wavelengths by exchange: greedily at first, then each in turn goes where the sum of squared colour
+// differences, with the best weights for every light, becomes least.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "src/ops/plan_problem.hpp"
+
+namespace spectile::plan {
+namespace {
+
+/// Wavelengths worth looking at: beyond them the eye sees next to nothing.
+constexpr Eigen::Index kFirst = 390 - kFirstNm;
+constexpr Eigen::Index kCandidates = 720 - 390 + 1;
+
+/// White counts like so many samples.
+constexpr double kWhiteShare = 1e5;
+/// Keeps the weights of wavelengths beside each other tame.
+constexpr double kRidge = 1e-9;
+
+/// The normal equations of the weights of every candidate, for one light. Each candidate has three unknowns.
+class LightEquations {
+ public:
+  LightEquations(const Problem& p, std::size_t light, const Vector& share) {
+    const Matrix samples = p.samples.middleRows(kFirst, kCandidates);
+    const Eigen::Index count = p.samples.cols();
+    normal_.resize(3 * kCandidates, 3 * kCandidates);
+    right_ = Vector::Zero(3 * kCandidates);
+    std::vector<Eigen::Matrix3d> squares;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Matrix3d& m = p.metric[light][static_cast<std::size_t>(i)];
+      squares.emplace_back(share[i] * m.transpose() * m);
+    }
+    const Eigen::Matrix3d root = metrics(p.white[light], p.white[light])[0];
+    const Eigen::Matrix3d white = kWhiteShare * root.transpose() * root;
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        Vector weight(count);
+        for (Eigen::Index i = 0; i < count; ++i) weight[i] = squares[static_cast<std::size_t>(i)](a, b);
+        Matrix block = samples * weight.asDiagonal() * samples.transpose();
+        block.array() += white(a, b);
+        for (Eigen::Index k = 0; k < kCandidates; ++k) {
+          for (Eigen::Index l = 0; l < kCandidates; ++l) {
+            normal_(3 * k + a, 3 * l + b) = block(k, l);
+            normal_(3 * k + b, 3 * l + a) = block(k, l);
+          }
+        }
+      }
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Vector3d aim = squares[static_cast<std::size_t>(i)] * p.truth[light].col(i);
+      for (Eigen::Index k = 0; k < kCandidates; ++k) right_.segment<3>(3 * k) += samples(k, i) * aim;
+    }
+    const Eigen::Vector3d aim = white * p.white[light];
+    for (Eigen::Index k = 0; k < kCandidates; ++k) right_.segment<3>(3 * k) += aim;
+    normal_.diagonal() *= 1 + kRidge;
+  }
+
+  /// Adds to each candidate's gain what it takes from the sum of squares beside those known; returns what
+  /// those take.
+  double add_gains(const std::vector<Eigen::Index>& known, Vector& gains) const {
+    const auto k = static_cast<Eigen::Index>(known.size());
+    Matrix inner(3 * k, 3 * k);
+    Matrix cross(3 * k, 3 * kCandidates);
+    Vector aim(3 * k);
+    for (Eigen::Index a = 0; a < k; ++a) {
+      const Eigen::Index at = 3 * known[static_cast<std::size_t>(a)];
+      cross.middleRows<3>(3 * a) = normal_.middleRows<3>(at);
+      aim.segment<3>(3 * a) = right_.segment<3>(at);
+      for (Eigen::Index b = 0; b < k; ++b) {
+        inner.block<3, 3>(3 * a, 3 * b) = normal_.block<3, 3>(at, 3 * known[static_cast<std::size_t>(b)]);
+      }
+    }
+    const Eigen::LLT<Matrix> factor(inner);
+    Vector seen = aim;
+    if (k > 0) {
+      factor.matrixL().solveInPlace(cross);
+      factor.matrixL().solveInPlace(seen);
+    }
+    const Vector left = right_ - cross.transpose() * seen;
+    for (Eigen::Index c = 0; c < kCandidates; ++c) {
+      const Eigen::Matrix3d own = normal_.block<3, 3>(3 * c, 3 * c);
+      const auto part = cross.middleCols<3>(3 * c);
+      Eigen::Matrix3d rest = own - part.transpose() * part;
+      rest.diagonal() += 1e-9 * own.diagonal();
+      const Eigen::Vector3d d = left.segment<3>(3 * c);
+      gains[c] += std::max(0.0, d.dot(rest.ldlt().solve(d)));
+    }
+    return seen.squaredNorm();
+  }
+
+ private:
+  Matrix normal_;
+  Vector right_;
+};
+
+/// The wavelength that helps most beside those known, and what all then take from the sum of squares.
+std::pair<Eigen::Index, double> best_beside(const std::vector<LightEquations>& lights,
+                                            const std::vector<Eigen::Index>& known) {
+  Vector gains = Vector::Zero(kCandidates);
+  double taken = 0;
+  for (const LightEquations& light : lights) taken += light.add_gains(known, gains);
+  for (const Eigen::Index g : known) gains[g] = -1;
+  Eigen::Index best = 0;
+  const double most = gains.maxCoeff(&best);
+  return {best, taken + most};
+}
+
+/// Takes each in turn out and puts the best one in, until none moves. Returns what they take.
+double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen::Index>& chosen) {
+  constexpr int kSweeps = 30;
+  double taken = 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    bool moved = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Eigen::Index before = chosen.front();
+      chosen.erase(chosen.begin());
+      const auto [best, sum] = best_beside(lights, chosen);
+      chosen.push_back(best);
+      moved = moved || best != before;
+      taken = sum;
+    }
+    if (!moved) break;
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, const Vector& share,
+                                       int starts) {
+  std::vector<LightEquations> lights;
+  for (std::size_t l = 0; l < problem.weights.size(); ++l) lights.emplace_back(problem, l, share);
+  std::vector<Eigen::Index> best;
+  double most = -1;
+  std::mt19937_64 random(7);  // any seed: the same starts every time
+  for (int start = 0; start < starts; ++start) {
+    std::vector<Eigen::Index> chosen;
+    if (start == 0) {
+      while (chosen.size() < count) chosen.push_back(best_beside(lights, chosen).first);
+    } else {
+      // Spread evenly, each somewhere within its share.
+      const auto share_of = static_cast<std::uint64_t>(kCandidates) / count;
+      for (std::uint64_t k = 0; k < count; ++k) {
+        chosen.push_back(static_cast<Eigen::Index>(k * share_of + random() % share_of));
+      }
+    }
+    const double taken = exchange_all(lights, chosen);
+    if (taken > most) {
+      most = taken;
+      best = chosen;
+    }
+  }
+  std::vector<double> out;
+  for (const Eigen::Index c : best) out.push_back(kFirstNm + static_cast<double>(kFirst + c));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace spectile::plan

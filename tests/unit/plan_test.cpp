@@ -1,0 +1,155 @@
+// Plans: white is exact, promises are kept, few wavelengths beat many even ones, and what cannot be is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <spectile/spectile.hpp>
+
+namespace spectile {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<Spectrum> chart() {
+  std::vector<Spectrum> out;
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    if (info.name.rfind("colorchecker-", 0) == 0) out.push_back(*named_spectrum(info.name));
+  }
+  return out;
+}
+
+PlannedLight light(const char* name) {
+  return {name, *find_spectrum(name)};
+}
+
+PlannerOptions options(std::vector<const char*> lights, std::size_t bands) {
+  PlannerOptions o;
+  for (const char* name : lights) o.lights.push_back(light(name));
+  o.reflectances = chart();
+  o.bands = bands;
+  o.folds = 3;
+  return o;
+}
+
+TEST(Plan, WhiteIsExactUnderEveryLight) {
+  PlannerOptions o = options({"D65", "FL11", "A"}, 10);
+  o.folds = 0;
+  const auto plan = make_plan(o);
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_EQ(plan->count(), 10U);
+  EXPECT_TRUE(plan->promises.empty());
+  const std::vector<double> ones(plan->count(), 1.0);
+  const Sensor observer = *Sensor::named("cie1931");
+  for (std::size_t l = 0; l < o.lights.size(); ++l) {
+    const auto white = plan->xyz(l, ones);
+    EXPECT_NEAR(white[1], 1, 1e-12);
+    // The sums every nanometre and the exact integrals of the light differ by its corners only.
+    const auto exact = observer.response(o.lights[l].spectrum);
+    for (const std::size_t c : {0U, 2U}) EXPECT_NEAR(white[c], exact[c] / exact[1], 5e-4) << l;
+    EXPECT_LT(plan->absolute_sum(l), 1.5);
+  }
+}
+
+TEST(Plan, WavelengthsAscendWithinTheVisible) {
+  PlannerOptions o = options({"D65"}, 12);
+  o.folds = 0;
+  const Plan plan = *make_plan(o);
+  for (std::size_t k = 0; k < plan.count(); ++k) {
+    EXPECT_GT(plan.wavelengths_nm[k], 380);
+    EXPECT_LT(plan.wavelengths_nm[k], 730);
+    EXPECT_GT(plan.wavelengths_nm[k], k == 0 ? 0 : plan.wavelengths_nm[k - 1]);
+  }
+}
+
+TEST(Plan, FewWavelengthsDoWhatManyEvenBandsDo) {
+  for (const char* name : {"D65", "FL11", "HP1"}) {
+    const PlannerOptions o = options({name}, 12);
+    const auto plan = make_plan(o);
+    ASSERT_TRUE(plan);
+    const auto even = even_bands_error(*Bands::parse("400:700:18.75"), o.lights[0], o.reflectances, 1);
+    ASSERT_TRUE(even);
+    ASSERT_EQ(plan->promises.size(), 1U);
+    // Judged on patches that it has not seen, of sixteen that it was fitted to.
+    EXPECT_LT(plan->promises[0].error.mean, 0.8 * even->mean) << name;
+    EXPECT_LE(plan->promises[0].error.mean, plan->promises[0].error.percentile95);
+    EXPECT_LE(plan->promises[0].error.percentile95, plan->promises[0].error.maximum);
+    // On what it was fitted to it is better than its promise.
+    const auto fitted = plan_error(*plan, o.lights[0], o.reflectances, 1);
+    ASSERT_TRUE(fitted);
+    EXPECT_LT(fitted->mean, plan->promises[0].error.mean) << name;
+  }
+}
+
+TEST(Plan, ErrorsAreThoseOfItsOwnFormula) {
+  PlannerOptions o = options({"FL2"}, 9);
+  o.folds = 0;
+  const Plan plan = *make_plan(o);
+  const Sensor observer = *Sensor::named("cie1931");
+  const auto white = observer.response(o.lights[0].spectrum);
+  double mean = 0;
+  for (const Spectrum& patch : o.reflectances) {
+    std::vector<double> samples;
+    for (const double nm : plan.wavelengths_nm) samples.push_back(patch(nm));
+    auto truth = observer.response(o.lights[0].spectrum, patch);
+    for (double& v : truth) v /= white[1];
+    const std::array<double, 3> relative = {white[0] / white[1], 1, white[2] / white[1]};
+    mean += ciede2000(xyz_to_lab(truth, relative), xyz_to_lab(plan.xyz(0, samples), relative)) /
+            static_cast<double>(o.reflectances.size());
+  }
+  EXPECT_NEAR(plan_error(plan, o.lights[0], o.reflectances, 1)->mean, mean, 0.02);
+}
+
+TEST(Plan, IsTheSameEveryTime) {
+  PlannerOptions o = options({"D65", "A"}, 6);
+  o.folds = 0;
+  const Plan a = *make_plan(o);
+  const Plan b = *make_plan(o);
+  EXPECT_EQ(a.wavelengths_nm, b.wavelengths_nm);
+  EXPECT_EQ(a.sensor, b.sensor);
+  EXPECT_EQ(a.lights[1].emission, b.lights[1].emission);
+}
+
+TEST(Plan, ManyBouncesArePromisedToo) {
+  PlannerOptions o = options({"D65"}, 12);
+  o.bounces = 2;
+  const Plan plan = *make_plan(o);
+  ASSERT_EQ(plan.promises.size(), 2U);
+  EXPECT_EQ(plan.promises[1].bounces, 2);
+  EXPECT_LT(plan.promises[1].error.mean, 0.5);
+}
+
+TEST(Plan, SaysWhatItCannotDo) {
+  const auto refusal = [](const PlannerOptions& o) {
+    const auto plan = make_plan(o);
+    EXPECT_FALSE(plan);
+    return plan ? "" : plan.error().message;
+  };
+  PlannerOptions o = options({"D65"}, 8);
+  o.max_error = 1;
+  EXPECT_THAT(refusal(o), HasSubstr("either"));
+  EXPECT_THAT(refusal(options({}, 8)), HasSubstr("one light"));
+  EXPECT_THAT(refusal(options({"D65"}, 2)), HasSubstr("2 bands"));
+  o = options({"D65"}, 8);
+  o.reflectances.resize(5, Spectrum(ConstantSpectrum(0.5)));
+  EXPECT_THAT(refusal(o), HasSubstr("not 5"));
+  o = options({"D65"}, 8);
+  o.lights[0].spectrum = ConstantSpectrum(0);
+  EXPECT_THAT(refusal(o), HasSubstr("no luminance"));
+  o = options({"D65"}, 8);
+  o.bounces = 9;
+  EXPECT_THAT(refusal(o), HasSubstr("9 bounces"));
+  EXPECT_FALSE(plan_error(*make_plan(options({"D65"}, 4)), light("A"), chart(), 1));
+}
+
+TEST(Plan, AnErrorAskedForIsMetByAsFewAsThat) {
+  PlannerOptions o = options({"D65"}, 8);
+  o.bands.reset();
+  o.max_error = 3;
+  const auto plan = make_plan(o);
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_LT(plan->count(), 12U);
+  EXPECT_LE(plan->promises[0].error.maximum, 3);
+}
+
+}  // namespace
+}  // namespace spectile
