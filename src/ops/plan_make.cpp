@@ -105,7 +105,7 @@ double largest(const Judged& judged) {
 Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
   Plan out;
   out.observer = o.observer;
-  for (std::size_t l = 0; l < o.lights.size(); ++l) out.lights.push_back({o.lights[l].name, {}});
+  for (const PlannedLight& light : o.lights) out.lights.push_back({light.name, {}});
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
     out.wavelengths_nm.push_back(n.lambda[k]);
     // Only products count: emission values are made 1 on average.

@@ -69,7 +69,8 @@ Matrix tabulate(const std::vector<Spectrum>& reflectances) {
 
 Matrix products(const Matrix& reflectances, int bounces, std::size_t most) {
   if (bounces <= 1) return reflectances;
-  std::mt19937_64 random(20);  // any seed: the same products every time
+  // The same products every time.
+  std::mt19937_64 random(20);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   const auto count = static_cast<std::uint64_t>(reflectances.cols());
   Matrix out(reflectances.rows(), static_cast<Eigen::Index>(most));
   for (Eigen::Index i = 0; i < out.cols(); ++i) {

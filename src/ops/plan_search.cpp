@@ -133,7 +133,8 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
   for (std::size_t l = 0; l < problem.weights.size(); ++l) lights.emplace_back(problem, l, share);
   std::vector<Eigen::Index> best;
   double most = -1;
-  std::mt19937_64 random(7);  // any seed: the same starts every time
+  // The same starts every time.
+  std::mt19937_64 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   for (int start = 0; start < starts; ++start) {
     std::vector<Eigen::Index> chosen;
     if (start == 0) {
@@ -152,6 +153,7 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
     }
   }
   std::vector<double> out;
+  out.reserve(best.size());
   for (const Eigen::Index c : best) out.push_back(kFirstNm + static_cast<double>(kFirst + c));
   std::sort(out.begin(), out.end());
   return out;
