@@ -288,15 +288,7 @@ inline I32 bucket_of(const BucketTable& table, F32 lambda) noexcept {
   const F32 last(table.edges[table.count - 1]);
   const Mask inside = (lambda >= first) & (lambda < last);
   const F32 safe = xsimd::select(inside, lambda, first);
-  const F32 bucket =
-      limit_above(F32(static_cast<float>(table.buckets - 1)), (safe - first) * F32(table.buckets_per_nm));
-  I32 edge = gather(table.start, xsimd::to_int(bucket));
-  for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
-    const I32 next = edge + I32(step);
-    const Mask below = gather(table.edges, next) <= safe;
-    edge = bits_as<std::int32_t>(xsimd::select(below, bits_as<float>(next), bits_as<float>(edge)));
-  }
-  const I32 band = gather(table.band, edge);
+  const I32 band = gather(table.band, last_knot(table.edges, table, safe));
   return bits_as<std::int32_t>(xsimd::select(inside, bits_as<float>(band), bits_as<float>(I32(-1))));
 }
 

@@ -78,18 +78,6 @@ inline F32 largest_of_three(F32 v) {
   return _mm256_max_ps(most, _mm256_permute_ps(v, 0xD2));
 }
 #elif defined(SPECTILE_KERNEL_SSE42)
-class RowSums {
- public:
-  void add(const float* table, const std::int32_t* at, const float* ratio, const float* part) {
-    values_ = values_ + load_any(table + at[0]) * F32(*ratio);
-    differences_ = differences_ + load_any(table + at[0] + 4) * F32(*part);
-  }
-  F32 total() const { return values_ + differences_; }
-
- private:
-  F32 values_ = F32(0.0F);
-  F32 differences_ = F32(0.0F);
-};
 inline F32 spread_over_quads(const float* p) {
   return _mm_set1_ps(*p);
 }
@@ -98,18 +86,6 @@ inline F32 largest_of_three(F32 v) {
   return _mm_max_ps(most, _mm_shuffle_ps(v, v, 0xD2));
 }
 #else
-class RowSums {
- public:
-  void add(const float* table, const std::int32_t* at, const float* ratio, const float* part) {
-    values_ = values_ + load_any(table + at[0]) * F32(*ratio);
-    differences_ = differences_ + load_any(table + at[0] + 4) * F32(*part);
-  }
-  F32 total() const { return values_ + differences_; }
-
- private:
-  F32 values_ = F32(0.0F);
-  F32 differences_ = F32(0.0F);
-};
 inline F32 spread_over_quads(const float* p) {
   return vdupq_n_f32(*p);
 }
@@ -119,6 +95,21 @@ inline F32 largest_of_three(F32 v) {
   const float32x4_t third = vdupq_n_f32(vgetq_lane_f32(all, 2));
   return vmaxq_f32(vmaxq_f32(vdupq_n_f32(vgetq_lane_f32(all, 0)), second), third);
 }
+#endif
+
+#if !defined(SPECTILE_KERNEL_AVX512) && !defined(SPECTILE_KERNEL_AVX2)
+class RowSums {
+ public:
+  void add(const float* table, const std::int32_t* at, const float* ratio, const float* part) {
+    values_ = values_ + load_any(table + at[0]) * F32(*ratio);
+    differences_ = differences_ + load_any(table + at[0] + 4) * F32(*part);
+  }
+  F32 total() const { return values_ + differences_; }
+
+ private:
+  F32 values_ = F32(0.0F);
+  F32 differences_ = F32(0.0F);
+};
 #endif
 
 // --- One quad

@@ -110,6 +110,22 @@ inline I32 gather(const std::int32_t* base, I32 index) {
 #endif
 }
 
+/// The last knot at or below `at`, which is neither NaN nor below the first one: from that which `start`
+/// names for its bucket, in steps halved from 2^(halvings - 1) to 1. Table: KnotTable or BucketTable.
+template <class Table>
+inline I32 last_knot(const float* knots, const Table& table, F32 at) {
+  const F32 most(static_cast<float>(table.buckets - 1));
+  const F32 bucket = limit_above(most, (at - F32(knots[0])) * F32(table.buckets_per_nm));
+  I32 knot = gather(table.start, xsimd::to_int(bucket));
+  for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
+    const I32 next = knot + I32(step);
+    const Mask below = gather(knots, next) <= at;
+    // A selection moves bits, whatever they stand for.
+    knot = bits_as<std::int32_t>(xsimd::select(below, bits_as<float>(next), bits_as<float>(knot)));
+  }
+  return knot;
+}
+
 struct Pair {
   F32 first, second;
 };

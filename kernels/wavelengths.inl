@@ -46,20 +46,12 @@ void look_up_even(float* dst, const float* lambda_nm, const EvenTable& table, st
 void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
   const F32 first(table.knots[0]);
   const F32 last(table.knots[table.count - 1]);
-  const F32 most(static_cast<float>(table.buckets - 1));
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const Mask inside = (lambda >= first) & (lambda <= last);
     const F32 held = xsimd::select(lambda < first, first, xsimd::select(lambda > last, last, lambda));
     const F32 safe = xsimd::select(is_nan(lambda), first, held);
-    const F32 bucket = limit_above(most, (safe - first) * F32(table.buckets_per_nm));
-    I32 knot = gather(table.start, xsimd::to_int(bucket));
-    for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
-      const I32 next = knot + I32(step);
-      const Mask below = gather(table.knots, next) <= safe;
-      // A selection moves bits, whatever they stand for.
-      knot = bits_as<std::int32_t>(xsimd::select(below, bits_as<float>(next), bits_as<float>(knot)));
-    }
+    const I32 knot = last_knot(table.knots, table, safe);
     const Pair pair = gather_pair(table.pairs, knot);
     const F32 value = pair.first + (safe - gather(table.knots, knot)) * pair.second;
     const F32 out = table.held ? value : xsimd::select(inside, value, F32(0.0F));
