@@ -76,6 +76,8 @@ class PixelFilter {
   friend struct FilterAccess;
   struct Table;
   /// The filter with what follows from its parameters, or what is wrong with them.
+  static Result<PixelFilter> shaped(FilterKind kind, double radius_x, double radius_y, double first,
+                                    double second);
   static Result<PixelFilter> finished(PixelFilter filter);
   double profile(double d, double radius) const noexcept;
   FilterKind kind_ = FilterKind::kBox;

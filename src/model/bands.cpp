@@ -5,6 +5,7 @@
 #include <spectile/bands.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/base/text.hpp"
 
 namespace spectile {
 namespace {
@@ -26,16 +27,6 @@ std::optional<double> to_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t at = 0;;) {
-    const std::size_t next = text.find(separator, at);
-    parts.push_back(text.substr(at, next - at));
-    if (next == std::string_view::npos) return parts;
-    at = next + 1;
-  }
 }
 
 }  // namespace

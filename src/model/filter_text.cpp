@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
+#include "src/base/text.hpp"
 
 namespace spectile {
 namespace {
@@ -58,59 +59,37 @@ PixelFilter defaults(FilterKind kind) {
   return {};
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t at = 0;;) {
-    const std::size_t next = text.find(separator, at);
-    parts.push_back(text.substr(at, next - at));
-    if (next == std::string_view::npos) return parts;
-    at = next + 1;
-  }
-}
-
 }  // namespace
 
-Result<PixelFilter> PixelFilter::box(double radius_x, double radius_y) {
+Result<PixelFilter> PixelFilter::shaped(FilterKind kind, double radius_x, double radius_y, double first,
+                                        double second) {
   PixelFilter filter;
+  filter.kind_ = kind;
   filter.radius_x_ = radius_x;
   filter.radius_y_ = radius_y;
+  filter.first_ = first;
+  filter.second_ = second;
   return finished(filter);
+}
+
+Result<PixelFilter> PixelFilter::box(double radius_x, double radius_y) {
+  return shaped(FilterKind::kBox, radius_x, radius_y, 0, 0);
 }
 
 Result<PixelFilter> PixelFilter::triangle(double radius_x, double radius_y) {
-  PixelFilter filter;
-  filter.kind_ = FilterKind::kTriangle;
-  filter.radius_x_ = radius_x;
-  filter.radius_y_ = radius_y;
-  return finished(filter);
+  return shaped(FilterKind::kTriangle, radius_x, radius_y, 0, 0);
 }
 
 Result<PixelFilter> PixelFilter::gaussian(double radius_x, double radius_y, double sigma) {
-  PixelFilter filter;
-  filter.kind_ = FilterKind::kGaussian;
-  filter.radius_x_ = radius_x;
-  filter.radius_y_ = radius_y;
-  filter.first_ = sigma;
-  return finished(filter);
+  return shaped(FilterKind::kGaussian, radius_x, radius_y, sigma, 0);
 }
 
 Result<PixelFilter> PixelFilter::mitchell(double radius_x, double radius_y, double b, double c) {
-  PixelFilter filter;
-  filter.kind_ = FilterKind::kMitchell;
-  filter.radius_x_ = radius_x;
-  filter.radius_y_ = radius_y;
-  filter.first_ = b;
-  filter.second_ = c;
-  return finished(filter);
+  return shaped(FilterKind::kMitchell, radius_x, radius_y, b, c);
 }
 
 Result<PixelFilter> PixelFilter::lanczos(double radius_x, double radius_y, double tau) {
-  PixelFilter filter;
-  filter.kind_ = FilterKind::kLanczos;
-  filter.radius_x_ = radius_x;
-  filter.radius_y_ = radius_y;
-  filter.first_ = tau;
-  return finished(filter);
+  return shaped(FilterKind::kLanczos, radius_x, radius_y, tau, 0);
 }
 
 Result<PixelFilter> PixelFilter::parse(std::string_view text) {
