@@ -88,9 +88,7 @@ Result<void> Film::merge(const Film& other) {
   for (std::size_t r = 0; r < to.counts.size(); ++r) to.counts[r] += from.counts[r];
   if (from.overflown) to.overflown = true;
   if (!to.overflown) return {};
-  return make_error(ErrorCode::kUnavailable,
-                    "a pixel's sum is beyond 2^31 contributions of the film's range of 2^{}",
-                    to.options.range);
+  return film_overflow(to);
 }
 
 bool Film::same_contents(const Film& other) const {

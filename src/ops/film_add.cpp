@@ -235,9 +235,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
     if (result) result = done;
   });
   if (result && s.overflown) {
-    return make_error(ErrorCode::kUnavailable,
-                      "a pixel's sum is beyond 2^31 contributions of the film's range of 2^{}",
-                      s.options.range);
+    return film_overflow(s);
   }
   return result;
 }

@@ -97,17 +97,13 @@ Result<DevelopStats> FilmDevelopment::update(const Execution& how) {
         for (int x = w.x0; x < w.x1; ++x) {
           float* const to = pixels_.data() + static_cast<std::size_t>(y - window_.y0) * stride_ +
                             static_cast<std::size_t>(x - window_.x0);
-          const std::size_t in_tile =
-              static_cast<std::size_t>(y % kFilmTile) * kFilmTile + static_cast<std::size_t>(x % kFilmTile);
-          pixels.develop(layer_, sensor_, s.tiles[t], in_tile, to, plane_floats_);
+          pixels.develop(layer_, sensor_, s.tiles[t], pixel_in_tile(x, y), to, plane_floats_);
         }
       }
     }
   });
   if (s.overflown) {
-    return make_error(ErrorCode::kUnavailable,
-                      "a pixel's sum is beyond 2^31 contributions of the film's range of 2^{}",
-                      s.options.range);
+    return film_overflow(s);
   }
   return DevelopStats{developed, unchanged, untouched};
 }

@@ -167,6 +167,12 @@ void Film::State::settle(std::size_t tile) noexcept {
   if (!fits) overflown = true;
 }
 
+Error film_overflow(const FilmAccess::State& s) {
+  return make_error(ErrorCode::kUnavailable,
+                    "a pixel's sum is beyond 2^31 contributions of the film's range of 2^{}",
+                    s.options.range);
+}
+
 Result<std::unique_ptr<FilmAccess::State>> prepare_film(const FilmOptions& options) {
   SPECTILE_TRY(check_size(options));
   SPECTILE_TRY(check_contents(options));

@@ -12,6 +12,7 @@
 
 #include "kernels/abi.hpp"
 #include "src/base/zeroed_pages.hpp"
+#include "src/ops/knot_index.hpp"
 
 namespace spectile {
 
@@ -62,6 +63,11 @@ struct FilmProfile {
   int most_pixels = 1;  ///< that a sample reaches along the axis
 };
 
+/// Where a pixel of the film is in its tile.
+inline std::size_t pixel_in_tile(int x, int y) noexcept {
+  return static_cast<std::size_t>(y % kFilmTile) * kFilmTile + static_cast<std::size_t>(x % kFilmTile);
+}
+
 struct FilmScratch;
 
 struct Film::State {
@@ -76,8 +82,8 @@ struct Film::State {
   kernels::FilmMomentGrid moment_grid{};
   kernels::FilmLimits limits{};
   std::vector<FilmResponse> responses;
-  FloatBuffer bucket_edges;
-  std::vector<std::int32_t> bucket_bands, bucket_start;
+  KnotIndex bucket_index;
+  std::vector<std::int32_t> bucket_bands;
   kernels::BucketTable buckets;
   FilmProfile along_x, along_y;  ///< for splatting
 
@@ -104,6 +110,12 @@ struct Film::State {
   ~State();
 
   std::mutex& mutex_of(std::size_t tile) const noexcept { return stripes[tile % kStripes].mutex; }
+  /// The tile of a pixel in the window.
+  std::size_t tile_at(int x, int y) const noexcept {
+    const auto column = static_cast<std::size_t>((x - kernel_window.origin_x) / kFilmTile);
+    const auto row = static_cast<std::size_t>((y - kernel_window.origin_y) / kFilmTile);
+    return row * static_cast<std::size_t>(tiles_x) + column;
+  }
   /// The pixels of a tile that lie in the window.
   PixelWindow tile_window(std::size_t tile) const noexcept;
   /// Memory for a tile, where it has none; its mutex held. Null where there is no memory.
@@ -124,6 +136,9 @@ struct FilmAccess {
 
 /// Checks the options and makes all of a film but its responses.
 Result<std::unique_ptr<FilmAccess::State>> prepare_film(const FilmOptions& options);
+
+/// The error of a film whose sums have overflown.
+Error film_overflow(const FilmAccess::State& state);
 
 /// Which option differs between two films, with both values; nothing where none does.
 std::optional<std::string> film_difference(const FilmAccess::State& a, const FilmAccess::State& b);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "src/base/errors.hpp"
 
@@ -35,36 +34,16 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
     return make_error(ErrorCode::kBadArgument, "bands {} have edges that float cannot tell apart",
                       s.options.bands.description());
   }
-  // Buckets of even width, four an edge: most hold one edge at most.
-  constexpr std::size_t kMostBuckets = 4096;
-  const std::size_t buckets = std::min(kMostBuckets, 4 * edges.size());
-  const float per_nm = static_cast<float>(buckets) / (edges.back() - edges.front());
-  const auto bucket_of = [&](float nm) {
-    return static_cast<std::size_t>(std::min(static_cast<float>(buckets - 1), (nm - edges.front()) * per_nm));
-  };
-  std::vector<std::size_t> last_in(buckets, 0);
-  for (std::size_t i = 0; i < edges.size(); ++i) last_in[bucket_of(edges[i])] = i;
-  for (std::size_t b = 1; b < buckets; ++b) last_in[b] = std::max(last_in[b], last_in[b - 1]);
-  std::size_t most = 0;
-  for (std::size_t b = 0; b < buckets; ++b) {
-    const std::size_t before = b == 0 ? 0 : last_in[b - 1];
-    most = std::max(most, last_in[b] - before);
-    s.bucket_start.push_back(static_cast<std::int32_t>(before));
-  }
-  std::int32_t halvings = 0;
-  while ((std::size_t{1} << halvings) <= most) ++halvings;
-  auto memory = FloatBuffer::create(edges.size() + (std::size_t{1} << halvings));
-  if (!memory) return memory.error();
-  s.bucket_edges = *std::move(memory);
-  std::fill_n(s.bucket_edges.data(), s.bucket_edges.size(), std::numeric_limits<float>::infinity());
-  std::copy(edges.begin(), edges.end(), s.bucket_edges.data());
-  s.buckets = {s.bucket_edges.data(),
+  auto index = index_knots(edges);
+  if (!index) return index.error();
+  s.bucket_index = *std::move(index);
+  s.buckets = {s.bucket_index.knots.data(),
                s.bucket_bands.data(),
                static_cast<std::int32_t>(edges.size()),
-               s.bucket_start.data(),
-               per_nm,
-               static_cast<std::int32_t>(buckets),
-               halvings};
+               s.bucket_index.start.data(),
+               s.bucket_index.buckets_per_nm,
+               static_cast<std::int32_t>(s.bucket_index.start.size()),
+               s.bucket_index.halvings};
   return {};
 }
 

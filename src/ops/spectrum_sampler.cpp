@@ -8,6 +8,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/ops/knot_index.hpp"
 #include "src/ops/shape.hpp"
 #include "src/ops/tiles.hpp"
 
@@ -22,19 +23,14 @@ namespace {
 
 /// Knots, slopes and buckets of a piecewise-linear function, and the memory that they lie in.
 struct Knots {
-  FloatBuffer knots;
+  KnotIndex index;
   FloatBuffer pairs;
-  std::vector<std::int32_t> start;
   KnotTable table;
 };
 
 bool fits_float(double v) {
   return std::abs(v) <= static_cast<double>(std::numeric_limits<float>::max());
 }
-
-/// Buckets a knot: with four, most buckets hold one knot at most, and the search takes one step.
-constexpr std::size_t kBucketsPerKnot = 4;
-constexpr std::size_t kMostBuckets = 4096;
 
 Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
   const auto w = spectrum.wavelengths_nm();
@@ -46,8 +42,6 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
                         w[i]);
     }
   }
-  Knots out;
-  const std::size_t buckets = std::clamp<std::size_t>(kBucketsPerKnot * n, 1, kMostBuckets);
   const auto first = static_cast<float>(w.front());
   const auto last = static_cast<float>(w.back());
   const float range = last - first;
@@ -55,37 +49,19 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
     return make_error(ErrorCode::kBadArgument, "samples from {} to {} nm are too far apart for float",
                       w.front(), w.back());
   }
-  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All
-  // are in the first one where they are too close together for more.
-  float per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
-  if (!std::isfinite(per_nm)) per_nm = 0;
-  const auto bucket_of = [&](float nm) {
-    return static_cast<std::size_t>(std::min(static_cast<float>(buckets - 1), (nm - first) * per_nm));
-  };
-  std::vector<std::size_t> last_in(buckets, 0);  // last knot up to the bucket's end
-  for (std::size_t i = 0; i < n; ++i) last_in[bucket_of(static_cast<float>(w[i]))] = i;
-  for (std::size_t b = 1; b < buckets; ++b) last_in[b] = std::max(last_in[b], last_in[b - 1]);
-  std::size_t most = 0;
-  for (std::size_t b = 0; b < buckets; ++b) {
-    const std::size_t before = b == 0 ? 0 : last_in[b - 1];
-    most = std::max(most, last_in[b] - before);
-    out.start.push_back(static_cast<std::int32_t>(before));
-  }
-  std::int32_t halvings = 0;
-  while ((std::size_t{1} << halvings) <= most) ++halvings;
-  auto knots = FloatBuffer::create(n + (std::size_t{1} << halvings));
-  if (!knots) return knots.error();
+  std::vector<float> knots;
+  knots.reserve(n);
+  for (const double nm : w) knots.push_back(static_cast<float>(nm));
+  auto index = index_knots(knots);
+  if (!index) return index.error();
   auto pairs = FloatBuffer::create(2 * n);
   if (!pairs) return pairs.error();
-  out.knots = *std::move(knots);
+  Knots out;
+  out.index = *std::move(index);
   out.pairs = *std::move(pairs);
-  std::fill_n(out.knots.data(), out.knots.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < n; ++i) {
-    out.knots.data()[i] = static_cast<float>(w[i]);
     // Between the knots as they are in float: two that became one are a step.
-    const double length = i + 1 < n ? static_cast<double>(static_cast<float>(w[i + 1])) -
-                                          static_cast<double>(static_cast<float>(w[i]))
-                                    : 0;
+    const double length = i + 1 < n ? static_cast<double>(knots[i + 1]) - static_cast<double>(knots[i]) : 0;
     const double slope = length > 0 ? (v[i + 1] - v[i]) / length : 0;
     if (!fits_float(slope)) {
       return make_error(ErrorCode::kBadArgument, "the slope from {} to {} nm is beyond the range of float",
@@ -94,14 +70,10 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
     out.pairs.data()[2 * i] = static_cast<float>(v[i]);
     out.pairs.data()[2 * i + 1] = static_cast<float>(slope);
   }
-  out.table = {out.knots.data(),
-               out.pairs.data(),
-               static_cast<std::int32_t>(n),
-               out.start.data(),
-               per_nm,
-               static_cast<std::int32_t>(buckets),
-               halvings,
-               held};
+  out.table = {out.index.knots.data(),       out.pairs.data(),
+               static_cast<std::int32_t>(n), out.index.start.data(),
+               out.index.buckets_per_nm,     static_cast<std::int32_t>(out.index.start.size()),
+               out.index.halvings,           held};
   return out;
 }
 
