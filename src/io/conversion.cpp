@@ -29,6 +29,24 @@ void LineStats::add(const LineStats& later) {
   limited += later.limited;
 }
 
+Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats) {
+  writer_ = &writer;
+  for (std::size_t i = 0; i < slots; ++i) {
+    auto row = FloatBuffer::create(floats);
+    if (!row) return row.error();
+    std::fill_n(row->data(), row->size(), 0.0F);
+    rows_.push_back(*std::move(row));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<Strip>> MemoryJob::read(int first_line, int lines) {
+  auto strip = std::make_shared<Strip>();
+  strip->first_line = first_line;
+  strip->lines = lines;
+  return strip;
+}
+
 std::size_t slot_count(const ImageSpec& spec, int width, int threads) {
   // Work space that a conversion may use beyond what its threads must have.
   constexpr std::size_t kBudget = std::size_t{192} << 20;

@@ -47,6 +47,22 @@ class LineJob {
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
 };
 
+/// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.
+class MemoryJob : public LineJob {
+ public:
+  /// `floats`: of a slot's row, zeros at first. The writer must outlive the job. Errors: kOutOfMemory.
+  Result<void> prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats);
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override;
+
+ protected:
+  const ExrWriter& writer() const noexcept { return *writer_; }
+  float* row(std::size_t slot) noexcept { return rows_[slot].data(); }
+
+ private:
+  const ExrWriter* writer_ = nullptr;
+  std::vector<FloatBuffer> rows_;
+};
+
 /// Slots (and so encoders) that a conversion runs with.
 std::size_t slot_count(const ImageSpec& spec, int width, int threads);
 

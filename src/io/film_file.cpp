@@ -38,19 +38,8 @@ PixelWindow touched_window(const State& s) {
   return {s.window.x0, s.window.y0, s.window.x0 + 1, s.window.y0 + 1};
 }
 
-/// Where the pixel is in its tile.
-std::size_t in_tile(int x, int y) {
-  return static_cast<std::size_t>(y % kFilmTile) * kFilmTile + static_cast<std::size_t>(x % kFilmTile);
-}
-
-std::size_t tile_at(const State& s, int x, int y) {
-  const auto column = static_cast<std::size_t>((x - s.kernel_window.origin_x) / kFilmTile);
-  const auto row = static_cast<std::size_t>((y - s.kernel_window.origin_y) / kFilmTile);
-  return row * static_cast<std::size_t>(s.tiles_x) + column;
-}
-
 /// Lines of limbs, two channels each, and the preview behind them.
-class SaveJob : public io::LineJob {
+class SaveJob : public io::MemoryJob {
  public:
   SaveJob(const State& s, const PixelWindow& window, const std::vector<io::FilmLimb>& limbs, bool preview,
           const kernels::KernelTable& kernels)
@@ -68,29 +57,16 @@ class SaveJob : public io::LineJob {
     return out;
   }
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    writer_ = &writer;
-    for (std::size_t i = 0; i < slots; ++i) {
-      auto row = FloatBuffer::create((2 * kPreviewChannels) * padded());
-      if (!row) return row.error();
-      std::fill_n(row->data(), row->size(), 0.0F);
-      rows_.push_back(*std::move(row));
-    }
-    return {};
-  }
-  Result<std::shared_ptr<io::Strip>> read(int first_line, int lines) override {
-    auto strip = std::make_shared<io::Strip>();
-    strip->first_line = first_line;
-    strip->lines = lines;
-    return strip;
+    return MemoryJob::prepare(writer, slots, 2 * kPreviewChannels * padded());
   }
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& /*stats*/) override {
     if (packed == nullptr) return;
     const int y = window_.y0 + line;
-    std::memset(packed, 0, writer_->line_bytes());
+    std::memset(packed, 0, writer().line_bytes());
     for (int x = window_.x0; x < window_.x1;) {
       const int end = std::min(window_.x1, (x / kFilmTile + 1) * kFilmTile);
-      const std::int64_t* const tile = s_.tiles[tile_at(s_, x, y)];
+      const std::int64_t* const tile = s_.tiles[s_.tile_at(x, y)];
       if (tile != nullptr) pack_tile(slot, tile, x, end, y, packed);
       x = end;
     }
@@ -101,14 +77,14 @@ class SaveJob : public io::LineJob {
   std::size_t padded() const {
     return blocks_for(static_cast<std::size_t>(window_.width())) * kLanesPerBlock;
   }
-  float* preview_row(std::size_t slot, std::size_t c) { return rows_[slot].data() + c * padded(); }
+  float* preview_row(std::size_t slot, std::size_t c) { return row(slot) + c * padded(); }
 
   void pack_tile(std::size_t slot, const std::int64_t* tile, int x0, int x1, int y, std::byte* packed) {
     const auto first = static_cast<std::size_t>(x0 - window_.x0);
     for (std::size_t i = 0; i < limbs_.size(); ++i) {
-      std::byte* hi = packed + writer_->channel_offset(2 * i) + first * sizeof(std::uint32_t);
-      std::byte* lo = packed + writer_->channel_offset(2 * i + 1) + first * sizeof(std::uint32_t);
-      const std::int64_t* limb = tile + limbs_[i].at + in_tile(x0, y) * limbs_[i].per_pixel;
+      std::byte* hi = packed + writer().channel_offset(2 * i) + first * sizeof(std::uint32_t);
+      std::byte* lo = packed + writer().channel_offset(2 * i + 1) + first * sizeof(std::uint32_t);
+      const std::int64_t* limb = tile + limbs_[i].at + pixel_in_tile(x0, y) * limbs_[i].per_pixel;
       for (int x = x0; x < x1; ++x, limb += limbs_[i].per_pixel) {
         const auto bits = std::bit_cast<std::uint64_t>(*limb);
         const auto high = static_cast<std::uint32_t>(bits >> 32U);
@@ -120,7 +96,7 @@ class SaveJob : public io::LineJob {
       }
     }
     for (int x = x0; preview_ && x < x1; ++x) {
-      pixels_.develop(FilmLayer::kSrgb, 0, tile, in_tile(x, y),
+      pixels_.develop(FilmLayer::kSrgb, 0, tile, pixel_in_tile(x, y),
                       preview_row(slot, 0) + static_cast<std::size_t>(x - window_.x0), padded());
     }
   }
@@ -128,12 +104,12 @@ class SaveJob : public io::LineJob {
   void pack_preview(std::size_t slot, std::byte* packed) {
     const auto width = static_cast<std::size_t>(window_.width());
     for (std::size_t c = 0; c < kPreviewChannels; ++c) {
-      float* const row = preview_row(slot, c);
+      float* const values = preview_row(slot, c);
       auto* const halves = reinterpret_cast<std::uint16_t*>(preview_row(slot, kPreviewChannels));
-      kernels_.float_to_half(halves, row, padded());
-      std::memcpy(packed + writer_->channel_offset(2 * limbs_.size() + c), halves,
+      kernels_.float_to_half(halves, values, padded());
+      std::memcpy(packed + writer().channel_offset(2 * limbs_.size() + c), halves,
                   width * sizeof(std::uint16_t));
-      std::fill_n(row, width, 0.0F);
+      std::fill_n(values, width, 0.0F);
     }
   }
 
@@ -143,15 +119,7 @@ class SaveJob : public io::LineJob {
   bool preview_;
   const kernels::KernelTable& kernels_;
   FilmPixels pixels_;
-  const io::ExrWriter* writer_ = nullptr;
-  std::vector<FloatBuffer> rows_;
 };
-
-Error beyond_range(const State& s) {
-  return make_error(ErrorCode::kUnavailable,
-                    "a pixel's sum is beyond 2^31 contributions of the film's range of 2^{}",
-                    s.options.range);
-}
 
 Result<FilmFileReport> save(const Film& film, const std::string& path, const std::string& progress,
                             const ImageOptions& options) {
@@ -168,7 +136,7 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
     const std::scoped_lock tile(s.mutex_of(t));  // a development may be looking at it
     s.settle(t);
   }
-  if (s.overflown) return beyond_range(s);
+  if (s.overflown) return film_overflow(s);
   const PixelWindow window = touched_window(s);
   const Imath::Box2i display({0, 0}, {s.options.width - 1, s.options.height - 1});
   const Imath::Box2i data({window.x0, window.y0}, {window.x1 - 1, window.y1 - 1});
@@ -224,13 +192,13 @@ Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::Fil
           const auto column = static_cast<std::size_t>(x - data.x0);
           const std::uint64_t bits = (std::uint64_t{hi[column]} << 32U) | lo[column];
           if (bits == 0) continue;
-          const std::size_t tile = tile_at(s, x, y);
+          const std::size_t tile = s.tile_at(x, y);
           std::int64_t* const memory = s.touch(tile);
           if (memory == nullptr) {
             return make_error(ErrorCode::kOutOfMemory, "no memory for another tile of the film");
           }
           s.additions[tile] = 1;
-          memory[limbs[i].at + in_tile(x, y) * limbs[i].per_pixel] = std::bit_cast<std::int64_t>(bits);
+          memory[limbs[i].at + pixel_in_tile(x, y) * limbs[i].per_pixel] = std::bit_cast<std::int64_t>(bits);
         }
       }
     }
@@ -274,7 +242,7 @@ Result<LoadedFilm> load(const std::string& path, int threads) {
   SPECTILE_TRY(read_limbs(**input, s, limbs, data));
   copy_weights(s);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
-  if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, beyond_range(s).message);
+  if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
   return LoadedFilm{FilmAccess::make(std::move(described->state)), std::move(described->progress)};
 }
 

@@ -20,48 +20,35 @@ struct Picture {
 };
 
 /// Lines of a picture, floats or halves.
-class PictureJob : public io::LineJob {
+class PictureJob : public io::MemoryJob {
  public:
   PictureJob(const Picture& picture, PixelType pixel, const kernels::KernelTable& kernels)
       : picture_(picture), pixel_(pixel), kernels_(kernels) {}
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    writer_ = &writer;
-    for (std::size_t i = 0; i < slots; ++i) {
-      auto row = FloatBuffer::create(2 * padded());
-      if (!row) return row.error();
-      std::fill_n(row->data(), row->size(), 0.0F);
-      rows_.push_back(*std::move(row));
-    }
-    return {};
-  }
-  Result<std::shared_ptr<io::Strip>> read(int first_line, int lines) override {
-    auto strip = std::make_shared<io::Strip>();
-    strip->first_line = first_line;
-    strip->lines = lines;
-    return strip;
+    return MemoryJob::prepare(writer, slots, 2 * padded());
   }
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& stats) override {
     const std::size_t width = picture_.width;
-    float* const row = rows_[slot].data();
-    auto* const halves = reinterpret_cast<std::uint16_t*>(row + padded());
+    float* const work = row(slot);
+    auto* const halves = reinterpret_cast<std::uint16_t*>(work + padded());
     for (std::size_t p = 0; p < picture_.planes; ++p) {
       const float* const from =
           picture_.data + p * picture_.plane_floats + static_cast<std::size_t>(line) * width;
       if (pixel_ == PixelType::kFloat) {
-        if (packed != nullptr) std::memcpy(packed + writer_->channel_offset(p), from, width * sizeof(float));
+        if (packed != nullptr) std::memcpy(packed + writer().channel_offset(p), from, width * sizeof(float));
         continue;
       }
       for (std::size_t x = 0; x < width; ++x) {
         // Beyond the largest half: written as that, and counted. Infinite variance stays what it is.
         const bool beyond = std::abs(from[x]) > kernels::kHalfMax && std::abs(from[x]) < INFINITY;
-        row[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
+        work[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
         stats.limited += beyond ? 1 : 0;
       }
       if (packed == nullptr) continue;
-      kernels_.float_to_half(halves, row, padded());
-      std::memcpy(packed + writer_->channel_offset(p), halves, width * sizeof(std::uint16_t));
+      kernels_.float_to_half(halves, work, padded());
+      std::memcpy(packed + writer().channel_offset(p), halves, width * sizeof(std::uint16_t));
     }
   }
 
@@ -70,8 +57,6 @@ class PictureJob : public io::LineJob {
   Picture picture_;
   PixelType pixel_;
   const kernels::KernelTable& kernels_;
-  const io::ExrWriter* writer_ = nullptr;
-  std::vector<FloatBuffer> rows_;
 };
 
 std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, PixelType pixel) {

@@ -43,56 +43,38 @@ Result<RgbImage> read(const std::string& path, const std::string& layer, int thr
 }
 
 /// Lines of an image in memory, handed to the encoders.
-class MemoryJob : public io::LineJob {
+class RgbJob : public io::MemoryJob {
  public:
-  MemoryJob(ColorView rgb, int width, PixelType pixel, const kernels::KernelTable& kernels)
+  RgbJob(ColorView rgb, int width, PixelType pixel, const kernels::KernelTable& kernels)
       : rgb_(rgb), width_(static_cast<std::size_t>(width)), pixel_(pixel), kernels_(kernels) {}
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    writer_ = &writer;
-    const std::size_t padded = blocks_for(width_) * kLanesPerBlock;
-    for (std::size_t i = 0; i < slots; ++i) {
-      auto row = FloatBuffer::create(2 * padded);
-      if (!row) return row.error();
-      rows_.push_back(*std::move(row));
-    }
-    return {};
-  }
-
-  Result<std::shared_ptr<io::Strip>> read(int first_line, int lines) override {
-    auto strip = std::make_shared<io::Strip>();
-    strip->first_line = first_line;
-    strip->lines = lines;
-    return strip;
+    return MemoryJob::prepare(writer, slots, 2 * padded());
   }
 
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& /*stats*/) override {
     if (packed == nullptr) return;
-    const std::size_t padded = blocks_for(width_) * kLanesPerBlock;
-    float* const row = rows_[slot].data();
-    auto* const halves = reinterpret_cast<std::uint16_t*>(row + padded);
+    auto* const halves = reinterpret_cast<std::uint16_t*>(row(slot) + padded());
     for (std::size_t k = 0; k < 3; ++k) {
       const float* in = rgb_.c[k] + static_cast<std::size_t>(line) * width_;
-      std::byte* const out = packed + writer_->channel_offset(k);
+      std::byte* const out = packed + writer().channel_offset(k);
       if (pixel_ == PixelType::kFloat) {
         std::memcpy(out, in, width_ * sizeof(float));
         continue;
       }
-      std::memcpy(row, in, width_ * sizeof(float));
-      std::fill(row + width_, row + padded, 0.0F);
-      kernels_.float_to_half(halves, row, padded);
+      std::memcpy(row(slot), in, width_ * sizeof(float));
+      kernels_.float_to_half(halves, row(slot), padded());
       std::memcpy(out, halves, width_ * sizeof(std::uint16_t));
     }
   }
 
  private:
+  std::size_t padded() const { return blocks_for(width_) * kLanesPerBlock; }
   ColorView rgb_;
   std::size_t width_;
   PixelType pixel_;
   const kernels::KernelTable& kernels_;
-  const io::ExrWriter* writer_ = nullptr;
-  std::vector<FloatBuffer> rows_;
 };
 
 Result<void> write(const std::string& path, const ColorView& rgb, int width, int height,
@@ -114,7 +96,7 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
   const std::size_t slots = io::slot_count(spec, width, threads);
   auto writer = io::ExrWriter::create(path, spec, slots);
   if (!writer) return writer.error();
-  MemoryJob job(rgb, width, options.pixel, **kernels);
+  RgbJob job(rgb, width, options.pixel, **kernels);
   SPECTILE_TRY(job.prepare(**writer, slots));
   const auto stats =
       io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
