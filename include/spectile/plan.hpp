@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <spectile/bands.hpp>
 #include <spectile/colorimetry.hpp>
+#include <spectile/measured_spectrum.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectrum.hpp>
 #include <string>
@@ -27,10 +30,17 @@ struct PlanPromise {
   PlanError error;
 };
 
+/// The same of even bands, for comparison.
+struct EvenBandsPromise {
+  std::string bands;  ///< as Bands::parse() takes them
+  PlanPromise promise;
+};
+
 /// A light of a plan.
 struct PlanLight {
   std::string name;
   std::vector<double> emission;  ///< [wavelengths]
+  MeasuredSpectrum spectrum;     ///< which emission stands for, on any scale
 };
 
 /// XYZ of a reflectance r under a light is the sum over k of sensor_k * emission_k * r(lambda_k); that of a
@@ -41,6 +51,7 @@ struct Plan {
   std::vector<std::array<double, 3>> sensor;  ///< [wavelengths], shared by all lights
   std::vector<PlanLight> lights;
   std::vector<PlanPromise> promises;
+  std::vector<EvenBandsPromise> even;  ///< what even bands of about as many, and of more, do
   std::size_t count() const noexcept { return wavelengths_nm.size(); }
   /// XYZ of samples of a reflectance at the wavelengths. Shapes: samples [wavelengths].
   std::array<double, 3> xyz(std::size_t light, std::span<const double> samples) const;

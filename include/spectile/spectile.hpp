@@ -16,6 +16,7 @@
 #include <spectile/named_spectra.hpp>
 #include <spectile/pixel_filter.hpp>
 #include <spectile/plan.hpp>
+#include <spectile/plan_file.hpp>
 #include <spectile/procedural_scene.hpp>
 #include <spectile/radiometry.hpp>
 #include <spectile/relight.hpp>

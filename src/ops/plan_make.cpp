@@ -102,10 +102,20 @@ double largest(const Judged& judged) {
   return out;
 }
 
+/// The light as a plan keeps it: its own samples, or a table every nanometre.
+MeasuredSpectrum measured(const Spectrum& light) {
+  if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&light.kind())) {
+    return linear->measured();
+  }
+  std::vector<double> wavelengths;
+  for (int nm = plan::kFirstNm; nm <= plan::kLastNm; ++nm) wavelengths.push_back(nm);
+  return *MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths));
+}
+
 Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
   Plan out;
   out.observer = o.observer;
-  for (const PlannedLight& light : o.lights) out.lights.push_back({light.name, {}});
+  for (const PlannedLight& light : o.lights) out.lights.push_back({light.name, {}, measured(light.spectrum)});
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
     out.wavelengths_nm.push_back(n.lambda[k]);
     // Only products count: emission values are made 1 on average.
