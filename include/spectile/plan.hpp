@@ -43,11 +43,21 @@ struct PlanLight {
   MeasuredSpectrum spectrum;     ///< which emission stands for, on any scale
 };
 
+/// What a plan's samples are.
+enum class PlanSampling {
+  kPoints,  ///< a reflectance's values at the wavelengths, as renderers that trace wavelengths take them
+  kBands,   ///< its averages over bands, as sampled spectra hold them: several times as exact for one bounce
+};
+
 /// XYZ of a reflectance r under a light is the sum over k of sensor_k * emission_k * r(lambda_k); that of a
-/// reflectance that is 1 everywhere is the light's white, Y = 1, exactly.
+/// reflectance that is 1 everywhere is the light's white, Y = 1, exactly. With bands, r(lambda_k) stands for
+/// r's average over band k.
 struct Plan {
   Observer observer = Observer::kCie1931;
-  std::vector<double> wavelengths_nm;         ///< ascending
+  std::vector<double> wavelengths_nm;  ///< ascending, whole picometres
+  /// Over which a reflectance is averaged to its samples, around the wavelengths; empty where it is taken at
+  /// the wavelengths.
+  std::vector<Band> bands;
   std::vector<std::array<double, 3>> sensor;  ///< [wavelengths], shared by all lights
   std::vector<PlanLight> lights;
   std::vector<PlanPromise> promises;
@@ -70,6 +80,7 @@ struct PlannerOptions {
   std::vector<PlannedLight> lights;
   /// What the scene holds: reflectances, limited to [0, 1], constant beyond their ends.
   std::vector<Spectrum> reflectances;
+  PlanSampling sampling = PlanSampling::kPoints;
   int bounces = 1;                   ///< products of up to so many reflectances, 1 to 4
   std::optional<std::size_t> bands;  ///< so many wavelengths, 3 to 64
   std::optional<double> max_error;   ///< or as few as keep every light's and bounce's maximum below this
@@ -79,14 +90,14 @@ struct PlannerOptions {
 
 /// Chooses wavelengths and weights.
 ///
-/// How: the wavelengths start from kernel quadrature (greedy choice and exchange under the reflectances'
-/// second moments and a smooth prior), and are then moved, with sensor weights and emission values, to the
-/// least squares of colour differences, each in the CIEDE2000 metric at its own colour, worst ones weighed
-/// up; white is held exactly. Promises are cross-validated: each reflectance is judged by a plan that was
-/// fitted without it. Errors: kBadArgument for no lights, a light without luminance, fewer than 10
-/// reflectances, neither or both of bands and max_error, numbers out of their ranges; kUnavailable where
-/// max_error cannot be met, saying the best there is. Source of kernel quadrature: Rasmussen, Ghahramani,
-/// Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu, Dalal 2005.
+/// How: the wavelengths start from kernel quadrature (greedy choice and exchange under the second moments of
+/// the reflectances, of made-up ones with steep edges, and of a smooth prior), and are then moved, with the
+/// widths of bands, sensor weights and emission values, to the least colour differences, each in the
+/// CIEDE2000 metric at its own colour; white is held exactly. Promises are cross-validated: each reflectance
+/// is judged by a plan that was fitted without it. Errors: kBadArgument for no lights, a light without
+/// luminance, fewer than 10 reflectances, neither or both of bands and max_error, numbers out of their
+/// ranges; kUnavailable where max_error cannot be met, saying the best there is. Source of kernel quadrature:
+/// Rasmussen, Ghahramani, Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu, Dalal 2005.
 Result<Plan> make_plan(const PlannerOptions& options);
 
 /// Errors of a plan over reflectances, by the same measure, for products of `bounces` of them: all of them

@@ -1,6 +1,8 @@
 // make_plan, and the errors of plans and of even bands.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <spectile/plan.hpp>
 
 #include "src/base/errors.hpp"
@@ -9,16 +11,16 @@
 namespace spectile {
 namespace {
 
-using plan::kGrid;
+using plan::judged_samples;
+using plan::kJudgedProducts;
 using plan::Matrix;
 using plan::Numbers;
+using plan::SampleSet;
 
 constexpr std::size_t kFewestBands = 3;
 constexpr std::size_t kMostBands = 64;
 constexpr int kMostBounces = 4;
 constexpr std::size_t kFewestReflectances = 10;
-/// Products that an error is taken over.
-constexpr std::size_t kJudgedProducts = 2000;
 /// Counts that are tried for an error asked for.
 constexpr std::size_t kCounts[] = {4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 24, 28, 32};
 
@@ -54,16 +56,43 @@ Matrix columns(const Matrix& table, const std::vector<Eigen::Index>& which) {
   return out;
 }
 
-Numbers fitted(const Matrix& reflectances, int bounces, const std::vector<Matrix>& integrals,
-               std::size_t count) {
-  const plan::Problem problem = plan::make_problem(reflectances, bounces, integrals);
-  // One light is quick enough for some more starts.
-  const int starts = integrals.size() == 1 ? 4 : 1;
-  return plan::fit(problem, plan::choose_wavelengths(problem, count, problem.share, starts));
+/// Starts beside those of the exchange, each wavelength up to so far from there.
+constexpr double kStartNm = 10;
+
+/// Where a fit begins: from exchanges over bands of several widths, or over points, and near them.
+std::vector<plan::Start> starts_of(const plan::Problem& problem, const PlannerOptions& o, std::size_t count) {
+  // Shares of the visible range that a band begins with.
+  const double share = 300 / static_cast<double>(count);
+  const bool bands = o.sampling == PlanSampling::kBands;
+  const auto halves = bands ? std::vector<double>{0.25 * share, 0.1 * share} : std::vector<double>{0};
+  std::vector<plan::Start> out;
+  // The same starts every time.
+  std::mt19937_64 random(5);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
+  for (const double half : halves) {
+    const int exchanges = o.lights.size() == 1 ? 3 : 1;
+    out.push_back({plan::choose_wavelengths(problem, count, half, exchanges), half});
+    for (int i = 0; i < (bands ? 1 : 2); ++i) {
+      plan::Start near = out.back();
+      for (double& nm : near.wavelengths_nm) {
+        nm += kStartNm * (static_cast<double>(random() >> 11U) * 0x1p-52 - 1);
+      }
+      std::sort(near.wavelengths_nm.begin(), near.wavelengths_nm.end());
+      out.push_back(std::move(near));
+    }
+  }
+  return out;
 }
 
-Eigen::Vector3d white_of(const Matrix& integrals) {
-  return integrals.colwise().sum().transpose();
+Numbers fitted(const Matrix& reflectances, const PlannerOptions& o, const std::vector<Matrix>& integrals,
+               std::size_t count) {
+  const plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
+  Numbers n = plan::fit(problem, starts_of(problem, o, count));
+  // Whole picometres, which names of channels hold; bands that touch still do not overlap.
+  for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
+    n.lambda[k] = std::round(n.lambda[k] * 1000) / 1000;
+    n.half[k] = std::max(0.0, std::floor(n.half[k] * 1000 - 1) / 1000);
+  }
+  return n;
 }
 
 /// Differences of reflectances (or products of them) that took no part, light by light, bounce by bounce.
@@ -77,15 +106,14 @@ Judged cross_validate(const Matrix& table, const PlannerOptions& o, const std::v
     std::vector<Eigen::Index> judge;
     // Neighbours in a file are often alike: they go to different folds.
     for (Eigen::Index i = 0; i < table.cols(); ++i) (i % o.folds == fold ? judge : fit).push_back(i);
-    const Numbers numbers = fitted(columns(table, fit), o.bounces, integrals, count);
-    const Matrix judged = columns(table, judge);
+    const Numbers numbers = fitted(columns(table, fit), o, integrals, count);
     for (int b = 1; b <= o.bounces; ++b) {
       const auto most = kJudgedProducts / static_cast<std::size_t>(o.folds);
-      const Matrix samples = plan::products(judged, b, most);
+      const SampleSet samples = judged_samples(columns(table, judge), b, most);
       for (std::size_t l = 0; l < integrals.size(); ++l) {
-        const auto d = plan::differences(integrals[l].transpose() * samples,
+        const auto d = plan::differences(plan::truth_of(samples, integrals[l]),
                                          plan::predict(samples, numbers, static_cast<Eigen::Index>(l)),
-                                         white_of(integrals[l]));
+                                         plan::white_of(integrals[l]));
         auto& all = out[l][static_cast<std::size_t>(b - 1)];
         all.insert(all.end(), d.begin(), d.end());
       }
@@ -112,12 +140,33 @@ MeasuredSpectrum measured(const Spectrum& light) {
   return *MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths));
 }
 
+/// What even bands do on the same reflectances: about as many as the plan has, and the usual ones.
+Result<void> compare_even(Plan& plan, const PlannerOptions& o) {
+  if (o.folds == 0) return {};
+  const auto same = fmt::format("400:700:{}", 300.0 / static_cast<double>(plan.count()));
+  for (const std::string& text :
+       {same, std::string("400:700:10"), std::string("400:700:5"), std::string("380:780:5")}) {
+    const auto bands = Bands::parse(text);
+    if (!bands) return bands.error();
+    for (const PlannedLight& light : o.lights) {
+      for (int b = 1; b <= o.bounces; ++b) {
+        const auto error = even_bands_error(*bands, light, o.reflectances, b, o.observer);
+        if (!error) return error.error();
+        plan.even.push_back({text, {light.name, b, *error}});
+      }
+    }
+  }
+  return {};
+}
+
 Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
   Plan out;
   out.observer = o.observer;
   for (const PlannedLight& light : o.lights) out.lights.push_back({light.name, {}, measured(light.spectrum)});
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
-    out.wavelengths_nm.push_back(n.lambda[k]);
+    const double nm = n.lambda[k];
+    out.wavelengths_nm.push_back(nm);
+    if (o.sampling == PlanSampling::kBands) out.bands.push_back({nm - n.half[k], nm, nm + n.half[k]});
     // Only products count: emission values are made 1 on average.
     const double mean = n.emission.row(k).mean();
     const double by = std::abs(mean) > 1e-6 ? mean : 1.0;
@@ -144,23 +193,36 @@ Result<Plan> make(const PlannerOptions& o) {
     if (!one) return one.error();
     integrals.push_back(*std::move(one));
   }
-  if (o.bands) {
-    return plan_of(fitted(table, o.bounces, integrals, *o.bands), o,
-                   cross_validate(table, o, integrals, *o.bands));
-  }
+  const auto finished = [&](std::size_t count, const Judged& judged) -> Result<Plan> {
+    Plan plan = plan_of(fitted(table, o, integrals, count), o, judged);
+    SPECTILE_TRY(compare_even(plan, o));
+    return plan;
+  };
+  if (o.bands) return finished(*o.bands, cross_validate(table, o, integrals, *o.bands));
   PlannerOptions judging = o;
   if (judging.folds == 0) judging.folds = PlannerOptions().folds;
-  double best = -1;
+  // Errors fall as counts grow, nearly always: the fewest are between one that fails and one that does not.
+  double best = std::numeric_limits<double>::infinity();
   std::size_t best_count = 0;
-  for (const std::size_t count : kCounts) {
-    const Judged judged = cross_validate(table, judging, integrals, count);
+  std::optional<std::pair<std::size_t, Judged>> met;
+  std::size_t low = 0;
+  std::size_t high = std::size(kCounts);
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    Judged judged = cross_validate(table, judging, integrals, kCounts[middle]);
     const double most = largest(judged);
-    if (most <= *o.max_error) return plan_of(fitted(table, o.bounces, integrals, count), o, judged);
-    if (best < 0 || most < best) {
+    if (most < best) {
       best = most;
-      best_count = count;
+      best_count = kCounts[middle];
+    }
+    if (most <= *o.max_error) {
+      met.emplace(kCounts[middle], std::move(judged));
+      high = middle;
+    } else {
+      low = middle + 1;
     }
   }
+  if (met) return finished(met->first, met->second);
   return make_error(
       ErrorCode::kUnavailable,
       "no plan keeps every difference below {}; the best there is, with {} bands, has a maximum of "
@@ -170,20 +232,6 @@ Result<Plan> make(const PlannerOptions& o) {
 
 }  // namespace
 
-std::array<double, 3> Plan::xyz(std::size_t light, std::span<const double> samples) const {
-  std::array<double, 3> out{};
-  for (std::size_t k = 0; k < count(); ++k) {
-    for (std::size_t c = 0; c < 3; ++c) out[c] += sensor[k][c] * lights[light].emission[k] * samples[k];
-  }
-  return out;
-}
-
-double Plan::absolute_sum(std::size_t light) const {
-  double out = 0;
-  for (std::size_t k = 0; k < count(); ++k) out += std::abs(sensor[k][1] * lights[light].emission[k]);
-  return out;
-}
-
 Result<Plan> make_plan(const PlannerOptions& options) {
   try {
     return make(options);
@@ -191,69 +239,6 @@ Result<Plan> make_plan(const PlannerOptions& options) {
     return make_error(ErrorCode::kOutOfMemory, "no memory to plan for {} reflectances",
                       options.reflectances.size());
   }
-}
-
-Result<PlanError> plan_error(const Plan& plan, const PlannedLight& light,
-                             const std::vector<Spectrum>& reflectances, int bounces) {
-  std::size_t index = 0;
-  while (index < plan.lights.size() && plan.lights[index].name != light.name) ++index;
-  if (index == plan.lights.size()) {
-    return make_error(ErrorCode::kBadArgument, "the plan has no light {}", light.name);
-  }
-  const auto integrals = plan::integrals(light, plan.observer);
-  if (!integrals) return integrals.error();
-  Numbers numbers;
-  const auto count = static_cast<Eigen::Index>(plan.count());
-  numbers.lambda = Eigen::Map<const plan::Vector>(plan.wavelengths_nm.data(), count);
-  numbers.sensor.resize(count, 3);
-  numbers.emission.resize(count, 1);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    for (Eigen::Index c = 0; c < 3; ++c) numbers.sensor(k, c) = plan.sensor[at][static_cast<std::size_t>(c)];
-    numbers.emission(k, 0) = plan.lights[index].emission[at];
-  }
-  const Matrix samples = plan::products(plan::tabulate(reflectances), bounces, kJudgedProducts);
-  return plan::summary(plan::differences(integrals->transpose() * samples, plan::predict(samples, numbers, 0),
-                                         white_of(*integrals)));
-}
-
-Result<PlanError> even_bands_error(const Bands& bands, const PlannedLight& light,
-                                   const std::vector<Spectrum>& reflectances, int bounces,
-                                   Observer observer) {
-  const auto integrals = plan::integrals(light, observer);
-  if (!integrals) return integrals.error();
-  PlannedLight equal = light;
-  equal.spectrum = ConstantSpectrum(1);
-  const auto curves = plan::integrals(equal, observer);
-  if (!curves) return curves.error();
-  // Averages over each band of reflectances, light and curves apart, as sampled spectra are multiplied.
-  const Matrix table = plan::tabulate(reflectances);
-  Matrix averages = Matrix::Zero(static_cast<Eigen::Index>(bands.count()), table.cols());
-  Matrix weights = Matrix::Zero(averages.rows(), 3);
-  for (Eigen::Index b = 0; b < averages.rows(); ++b) {
-    const Band& band = bands[static_cast<std::size_t>(b)];
-    constexpr int kSteps = 20;
-    double emitted = 0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double nm = band.lower_nm + (i + 0.5) / kSteps * band.width_nm();
-      averages.row(b) += plan::samples_at(table, nm).transpose() / kSteps;
-      weights.row(b) += plan::samples_at(*curves, nm).transpose() / kSteps;
-      emitted += light.spectrum(nm) / kSteps;
-    }
-    weights.row(b) *= emitted * band.width_nm();
-  }
-  const double sum = weights.col(1).sum();
-  if (!(sum > 0)) {
-    return make_error(ErrorCode::kBadArgument, "the light {} has no luminance in these bands", light.name);
-  }
-  weights /= sum;
-  // Each bounce multiplies the bands' averages: the products of both must be of the same reflectances.
-  const Matrix both =
-      plan::products((Matrix(kGrid + averages.rows(), table.cols()) << table, averages).finished(), bounces,
-                     kJudgedProducts);
-  return plan::summary(plan::differences(integrals->transpose() * both.topRows(kGrid),
-                                         weights.transpose() * both.bottomRows(averages.rows()),
-                                         white_of(*integrals)));
 }
 
 }  // namespace spectile

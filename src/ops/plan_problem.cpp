@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <spectile/color_difference.hpp>
 #include <spectile/sensor.hpp>
 
@@ -12,33 +11,14 @@
 namespace spectile::plan {
 namespace {
 
-/// Spectra that no measurement has shown must not come out wild: smooth ones of this correlation length and
-/// size join the measured ones with a small share.
-constexpr double kPriorLengthNm = 25;
-constexpr double kPriorSize = 0.15;
-constexpr double kPriorShare = 2e-2;
-constexpr Eigen::Index kPriorSpectra = 24;
+/// What the dyes, and the smooth deviations, count beside the reflectances: enough that no spectrum comes out
+/// wild that no measurement has shown, little enough to leave the measured ones their precision. By
+/// cross-validation: a third of this, or three times it, has higher means or higher maxima.
+constexpr double kDyeShare = 0.1;
+constexpr double kSmoothShare = 1e-2;
 
-/// Products that a fit takes beside the reflectances themselves.
+/// Products that a fit takes beside the reflectances themselves, for each number of bounces.
 constexpr std::size_t kProducts = 300;
-
-/// The leading eigenvectors of a squared-exponential covariance, scaled by their roots.
-Matrix prior_spectra() {
-  Matrix covariance(kGrid, kGrid);
-  for (Eigen::Index a = 0; a < kGrid; ++a) {
-    for (Eigen::Index b = 0; b < kGrid; ++b) {
-      const double d = static_cast<double>(a - b) / kPriorLengthNm;
-      covariance(a, b) = kPriorSize * kPriorSize * std::exp(-0.5 * d * d);
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-  Matrix out(kGrid, kPriorSpectra);
-  for (Eigen::Index k = 0; k < kPriorSpectra; ++k) {
-    const Eigen::Index at = kGrid - 1 - k;
-    out.col(k) = solver.eigenvectors().col(at) * std::sqrt(std::max(0.0, solver.eigenvalues()[at]));
-  }
-  return out;
-}
 
 std::array<double, 3> triple(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
@@ -67,21 +47,6 @@ Matrix tabulate(const std::vector<Spectrum>& reflectances) {
   return out;
 }
 
-Matrix products(const Matrix& reflectances, int bounces, std::size_t most) {
-  if (bounces <= 1) return reflectances;
-  // The same products every time.
-  std::mt19937_64 random(20);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
-  const auto count = static_cast<std::uint64_t>(reflectances.cols());
-  Matrix out(reflectances.rows(), static_cast<Eigen::Index>(most));
-  for (Eigen::Index i = 0; i < out.cols(); ++i) {
-    out.col(i).setOnes();
-    for (int b = 0; b < bounces; ++b) {
-      out.col(i) = out.col(i).cwiseProduct(reflectances.col(static_cast<Eigen::Index>(random() % count)));
-    }
-  }
-  return out;
-}
-
 Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
   const auto sensor = Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964");
   if (!sensor) return sensor.error();
@@ -99,6 +64,10 @@ Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
     return make_error(ErrorCode::kBadArgument, "the light {} has no luminance", light.name);
   }
   return Matrix(out / sum);
+}
+
+Eigen::Vector3d white_of(const Matrix& integrals) {
+  return integrals.colwise().sum().transpose();
 }
 
 std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& white) {
@@ -146,54 +115,40 @@ PlanError summary(std::vector<double> d) {
   return out;
 }
 
-Vector samples_at(const Matrix& table, double lambda_nm) {
-  const double at = std::clamp(lambda_nm - kFirstNm, 0.0, static_cast<double>(kGrid - 1));
-  const auto g = std::min<Eigen::Index>(static_cast<Eigen::Index>(at), kGrid - 2);
-  const double t = at - static_cast<double>(g);
-  return (1 - t) * table.row(g).transpose() + t * table.row(g + 1).transpose();
-}
-
-Vector slopes_at(const Matrix& table, double lambda_nm) {
-  // Over 5 nm, the step of most measurements: a slope that jumps every nanometre leads nowhere.
-  constexpr double kHalf = 2.5;
-  return (samples_at(table, lambda_nm + kHalf) - samples_at(table, lambda_nm - kHalf)) / (2 * kHalf);
-}
-
 Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& lights) {
   Problem out;
-  out.weights = lights;
-  const Matrix prior = prior_spectra();
-  std::vector<Matrix> parts;
-  for (int b = 1; b <= bounces; ++b) parts.push_back(products(reflectances, b, kProducts));
-  for (const Matrix& part : parts) out.measured += part.cols();
-  out.samples.resize(kGrid, out.measured + prior.cols());
-  Eigen::Index at = 0;
-  for (const Matrix& part : parts) {
-    out.samples.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
-  out.samples.rightCols(prior.cols()) = prior;
-  out.share = Vector::Ones(out.samples.cols());
-  const double prior_share =
-      kPriorShare * static_cast<double>(out.measured) / static_cast<double>(prior.cols());
-  out.share.tail(prior.cols()).setConstant(prior_share);
+  const Matrix dyes = dye_spectra();
+  const Matrix smooth = smooth_spectra();
+  const Eigen::Index given = reflectances.cols();
+  Matrix table(kGrid, given + dyes.cols() + smooth.cols());
+  table << reflectances, dyes, smooth;
+  out.samples = sample_set(std::move(table));
+  // The order of samples: reflectances, their products, dyes, smooth deviations.
+  auto& factors = out.samples.factors;
+  factors.resize(static_cast<std::size_t>(given));
+  for (int b = 2; b <= bounces; ++b) add_products(out.samples, given, b, kProducts);
+  const auto scene = out.samples.count();
+  for (Eigen::Index i = given; i < out.samples.table.cols(); ++i) factors.push_back({i});
+  out.measured = scene + dyes.cols();
+  out.share = Vector::Ones(out.samples.count());
+  const auto whole = static_cast<double>(scene);
+  out.share.segment(scene, dyes.cols()).setConstant(kDyeShare * whole / static_cast<double>(dyes.cols()));
+  out.share.tail(smooth.cols()).setConstant(kSmoothShare * whole / static_cast<double>(smooth.cols()));
   for (const Matrix& light : lights) {
-    out.white.emplace_back(light.colwise().sum().transpose());
-    out.truth.emplace_back(light.transpose() * out.samples);
-    // The prior's spectra are deviations: they are judged at a middle grey.
+    out.white.push_back(white_of(light));
+    out.truth.push_back(truth_of(out.samples, light));
+    // Smooth spectra are deviations: they are judged at a middle grey.
     Matrix colors = out.truth.back();
     constexpr double kGrey = 0.2;
-    colors.rightCols(prior.cols()) = (kGrey * out.white.back()).replicate(1, prior.cols());
-    out.metric.push_back(metrics(colors, out.white.back()));
-  }
-  return out;
-}
-
-Matrix predict(const Matrix& samples, const Numbers& numbers, Eigen::Index light) {
-  Matrix out = Matrix::Zero(3, samples.cols());
-  for (Eigen::Index k = 0; k < numbers.lambda.size(); ++k) {
-    const Vector values = samples_at(samples, numbers.lambda[k]);
-    out += numbers.sensor.row(k).transpose() * (numbers.emission(k, light) * values.transpose());
+    colors.rightCols(smooth.cols()) = (kGrey * out.white.back()).replicate(1, smooth.cols());
+    const auto roots = metrics(colors, out.white.back());
+    Matrix squared(out.samples.count(), kPairs);
+    for (Eigen::Index i = 0; i < squared.rows(); ++i) {
+      const Eigen::Matrix3d& root = roots[static_cast<std::size_t>(i)];
+      const Eigen::Matrix3d square = root.transpose() * root;
+      for (Eigen::Index s = 0; s < kPairs; ++s) squared(i, s) = square(kFirstOf[s], kSecondOf[s]);
+    }
+    out.squared_metric.push_back(std::move(squared));
   }
   return out;
 }

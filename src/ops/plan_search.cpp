@@ -21,38 +21,33 @@ constexpr double kRidge = 1e-9;
 /// The normal equations of the weights of every candidate, for one light. Each candidate has three unknowns.
 class LightEquations {
  public:
-  LightEquations(const Problem& p, std::size_t light, const Vector& share) {
-    const Matrix samples = p.samples.middleRows(kFirst, kCandidates);
-    const Eigen::Index count = p.samples.cols();
+  /// Shapes: samples [candidates][N].
+  LightEquations(const Problem& p, std::size_t light, const Matrix& samples) {
     normal_.resize(3 * kCandidates, 3 * kCandidates);
-    right_ = Vector::Zero(3 * kCandidates);
-    std::vector<Eigen::Matrix3d> squares;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Matrix3d& m = p.metric[light][static_cast<std::size_t>(i)];
-      squares.emplace_back(share[i] * m.transpose() * m);
-    }
     const Eigen::Matrix3d root = metrics(p.white[light], p.white[light])[0];
     const Eigen::Matrix3d white = kWhiteShare * root.transpose() * root;
-    for (int a = 0; a < 3; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        Vector weight(count);
-        for (Eigen::Index i = 0; i < count; ++i) weight[i] = squares[static_cast<std::size_t>(i)](a, b);
-        Matrix block = samples * weight.asDiagonal() * samples.transpose();
-        block.array() += white(a, b);
-        for (Eigen::Index k = 0; k < kCandidates; ++k) {
-          for (Eigen::Index l = 0; l < kCandidates; ++l) {
-            normal_(3 * k + a, 3 * l + b) = block(k, l);
-            normal_(3 * k + b, 3 * l + a) = block(k, l);
-          }
+    Matrix aims = Matrix::Zero(p.samples.count(), 3);
+    for (Eigen::Index s = 0; s < kPairs; ++s) {
+      const Eigen::Index a = kFirstOf[s];
+      const Eigen::Index b = kSecondOf[s];
+      const Vector weight = p.squared_metric[light].col(s).cwiseProduct(p.share);
+      Matrix block = samples * weight.asDiagonal() * samples.transpose();
+      block.array() += white(a, b);
+      for (Eigen::Index k = 0; k < kCandidates; ++k) {
+        for (Eigen::Index l = 0; l < kCandidates; ++l) {
+          normal_(3 * k + a, 3 * l + b) = block(k, l);
+          normal_(3 * k + b, 3 * l + a) = block(k, l);
         }
       }
+      aims.col(a) += weight.cwiseProduct(p.truth[light].row(b).transpose());
+      if (a != b) aims.col(b) += weight.cwiseProduct(p.truth[light].row(a).transpose());
     }
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Vector3d aim = squares[static_cast<std::size_t>(i)] * p.truth[light].col(i);
-      for (Eigen::Index k = 0; k < kCandidates; ++k) right_.segment<3>(3 * k) += samples(k, i) * aim;
-    }
+    const Matrix right = samples * aims;
+    right_.resize(3 * kCandidates);
     const Eigen::Vector3d aim = white * p.white[light];
-    for (Eigen::Index k = 0; k < kCandidates; ++k) right_.segment<3>(3 * k) += aim;
+    for (Eigen::Index k = 0; k < kCandidates; ++k) {
+      right_.segment<3>(3 * k) = right.row(k).transpose() + aim;
+    }
     normal_.diagonal() *= 1 + kRidge;
   }
 
@@ -127,10 +122,14 @@ double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen
 
 }  // namespace
 
-std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, const Vector& share,
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm,
                                        int starts) {
+  Vector candidates(kCandidates);
+  for (Eigen::Index c = 0; c < kCandidates; ++c) candidates[c] = kFirstNm + static_cast<double>(kFirst + c);
+  const Matrix samples =
+      values_of(problem.samples, candidates, Vector::Constant(kCandidates, half_nm)).transpose();
   std::vector<LightEquations> lights;
-  for (std::size_t l = 0; l < problem.weights.size(); ++l) lights.emplace_back(problem, l, share);
+  for (std::size_t l = 0; l < problem.white.size(); ++l) lights.emplace_back(problem, l, samples);
   std::vector<Eigen::Index> best;
   double most = -1;
   // The same starts every time.

@@ -80,6 +80,77 @@ TEST(Plan, FewWavelengthsDoWhatManyEvenBandsDo) {
   }
 }
 
+TEST(Plan, BandsAreSeveralTimesAsExactAsPoints) {
+  for (const char* name : {"D65", "A"}) {
+    PlannerOptions o = options({name}, 10);
+    const auto points = make_plan(o);
+    o.sampling = PlanSampling::kBands;
+    const auto bands = make_plan(o);
+    ASSERT_TRUE(points && bands);
+    EXPECT_TRUE(points->bands.empty());
+    EXPECT_LT(bands->promises[0].error.mean, 0.6 * points->promises[0].error.mean) << name;
+    ASSERT_EQ(bands->bands.size(), 10U);
+    // What Bands takes: in order, without overlaps.
+    ASSERT_TRUE(Bands::from_list(bands->bands)) << name;
+    for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(bands->bands[k].centre_nm, bands->wavelengths_nm[k]);
+  }
+}
+
+TEST(Plan, WavelengthsAreWholePicometres) {
+  PlannerOptions o = options({"A"}, 7);
+  o.folds = 0;
+  for (const PlanSampling sampling : {PlanSampling::kPoints, PlanSampling::kBands}) {
+    o.sampling = sampling;
+    const Plan plan = *make_plan(o);
+    for (const double nm : plan.wavelengths_nm) EXPECT_EQ(nm, std::round(nm * 1000) / 1000);
+  }
+}
+
+TEST(Plan, SaysWhatEvenBandsDo) {
+  PlannerOptions o = options({"D65", "FL2"}, 12);
+  o.bounces = 2;
+  const Plan plan = *make_plan(o);
+  ASSERT_EQ(plan.even.size(), 4U * 2 * 2);
+  EXPECT_EQ(plan.even[0].bands, "400:700:25");
+  for (const EvenBandsPromise& e : plan.even) {
+    const auto again = even_bands_error(*Bands::parse(e.bands), light(e.promise.light.c_str()),
+                                        o.reflectances, e.promise.bounces);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->mean, e.promise.error.mean);
+  }
+}
+
+TEST(Plan, EvenBandsErrAsTheirSumsDo) {
+  // By hand: averages over each band of reflectance, light and curve, multiplied and added.
+  const auto bands = *Bands::parse("400:700:30");
+  const std::vector<Spectrum> one = {chart()[2]};
+  const PlannedLight fl = light("FL11");
+  const Sensor observer = *Sensor::named("cie1931");
+  std::array<double, 3> sum{};
+  double luminance = 0;
+  for (const Band& band : bands.list()) {
+    double r = 0;
+    double l = 0;
+    std::array<double, 3> c{};
+    constexpr int kSteps = 3000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double nm = band.lower_nm + (i + 0.5) / kSteps * band.width_nm();
+      r += one[0](nm) / kSteps;
+      l += fl.spectrum(nm) / kSteps;
+      for (std::size_t k = 0; k < 3; ++k) c[k] += observer.curves()[k](nm) / kSteps;
+    }
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += c[k] * l * r;
+    luminance += c[1] * l;
+  }
+  for (double& v : sum) v /= luminance;
+  const auto white = observer.response(fl.spectrum);
+  auto truth = observer.response(fl.spectrum, one[0]);
+  for (double& v : truth) v /= white[1];
+  const std::array<double, 3> relative = {white[0] / white[1], 1, white[2] / white[1]};
+  const double expected = ciede2000(xyz_to_lab(truth, relative), xyz_to_lab(sum, relative));
+  EXPECT_NEAR(even_bands_error(bands, fl, one, 1)->maximum, expected, 0.02 * expected);
+}
+
 TEST(Plan, ErrorsAreThoseOfItsOwnFormula) {
   PlannerOptions o = options({"FL2"}, 9);
   o.folds = 0;
