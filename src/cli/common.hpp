@@ -90,6 +90,7 @@ void add_project(CLI::App& app, int& exit);
 void add_info(CLI::App& app, int& exit);
 void add_verify(CLI::App& app, int& exit);
 void add_spectra(CLI::App& app, int& exit);
+void add_plan(CLI::App& app, int& exit);
 void add_film(CLI::App& app, int& exit);
 
 // Each adds its subcommand to "film".
