@@ -126,6 +126,8 @@ int add_reflectances(const Arguments& a, Wanted& out) {
     out.from = "the ColorChecker and colours all over sRGB";
   } else if (a.textures.empty()) {
     out.from = fmt::format("{} reflectances", measured);
+  } else if (measured == 0) {
+    out.from = fmt::format("{} colours of textures", all.size());
   } else {
     out.from = fmt::format("{} reflectances and {} colours of textures", measured, all.size() - measured);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -11,6 +12,7 @@
 #include "src/io/conversion.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/settings.hpp"
 #include "src/ops/tiles.hpp"
 
 namespace spectile {
@@ -144,6 +146,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   }
   spec.text_attributes = io::method_attributes(upsampler, made, false);
   io::add_layout_attributes(spec.text_attributes, upsampler.quantity());
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -11,6 +12,7 @@
 #include "src/io/lines.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/settings.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/color_matrix.hpp"
 #include "src/ops/tiles.hpp"
@@ -199,6 +201,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.replaced.insert(spec.replaced.end(),
                        {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
