@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -86,6 +87,11 @@ nlohmann::json manifest_line(const Batch& batch, const Job& job, const char* sta
 }  // namespace
 
 void add_batch_options(CLI::App& command, BatchOptions& options) {
+  command.add_option(
+      "--region", options.region,
+      "X0,Y0,X1,Y1: convert only these pixels, both corners included, in the coordinates of the "
+      "image's data window; of tiled images only the tiles that they touch are read, of others "
+      "the lines");
   command.add_flag(
       "-u,--update", options.update,
       "Pass over outputs that are newer than what they are made from and were made with the same "
@@ -98,6 +104,26 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
   command.add_option("--manifest", options.manifest,
                      "File to which each input adds a line of JSON: what became of it. Several processes may "
                      "add to one file");
+}
+
+int apply_region(const BatchOptions& options, ImageOptions& out) {
+  if (options.region.empty()) return kOk;
+  std::array<int, 4> region{};
+  const char* at = options.region.data();
+  const char* const end = at + options.region.size();
+  bool good = true;
+  for (std::size_t i = 0; i < region.size() && good; ++i) {
+    if (i > 0) good = at != end && *at++ == ',';
+    const auto [next, error] = std::from_chars(at, end, region[i]);
+    good = good && error == std::errc();
+    at = next;
+  }
+  if (!good || at != end || region[0] > region[2] || region[1] > region[3]) {
+    return usage(
+        fmt::format("--region: \"{}\" is not X0,Y0,X1,Y1 with X0 <= X1 and Y0 <= Y1", options.region));
+  }
+  out.region = region;
+  return kOk;
 }
 
 std::string Shard::text() const {

@@ -11,12 +11,16 @@ namespace spectile::cli {
 
 /// Options of every command that converts many images.
 struct BatchOptions {
+  std::string region;
   bool update = false;
   std::string shard;
   std::string manifest;
 };
 
 void add_batch_options(CLI::App& command, BatchOptions& options);
+
+/// Puts the region into the options. The exit code of what is wrong, after saying it.
+int apply_region(const BatchOptions& options, ImageOptions& out);
 
 /// One of `count` even shares of the inputs.
 struct Shard {

@@ -26,6 +26,7 @@ int run(const Arguments& a) {
   ProjectImageOptions options;
   options.pixel = PixelType::kFloat;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   options.target = a.to == "xyz"         ? ColorTarget::kXyz
                    : a.to == "luminance" ? ColorTarget::kLuminance
                                          : ColorTarget::kSrgb;

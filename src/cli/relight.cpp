@@ -28,6 +28,7 @@ int run(const Arguments& a) {
   if (!light) return complain(light.error());
   RelightImageOptions options(*std::move(light));
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
   options.target = a.to == "xyz"         ? ColorTarget::kXyz
                    : a.to == "luminance" ? ColorTarget::kLuminance

@@ -22,6 +22,7 @@ int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   UpsampleImageOptions options;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
   options.store = a.store == "coefficients" ? Store::kCoefficients : Store::kSpectra;
   Batch batch;

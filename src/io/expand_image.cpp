@@ -126,7 +126,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   const int threads = tiles::thread_count(options.threads);
   auto file = io::ExrInput::open(input, threads);
   if (!file) return file.error();
-  auto source = io::CoefficientSource::open(*std::move(file));
+  auto source = io::CoefficientSource::open(*std::move(file), options.region);
   if (!source) return source.error();
   const Upsampler& upsampler = (*source)->upsampler();
   const Bands bands = options.bands.value_or(upsampler.bands());
@@ -153,7 +153,8 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   SPECTILE_TRY(job.prepare(**writer, slots));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  auto converted = io::convert(job, **writer, slots, lines, options,
+                               io::at_nonfinite(input, options, (*source)->offset()));
   if (!converted) return converted.error();
   ImageReport report = *std::move(converted);
   report.bands = bands.count();

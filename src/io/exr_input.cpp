@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTiledInputPart.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -91,6 +92,14 @@ Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, in
     Imf::InputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readPixels(y0, y1);
+  });
+}
+
+Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    input.setFrameBuffer(target);
+    input.readTiles(x0, x1, row, row);
   });
 }
 

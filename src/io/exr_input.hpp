@@ -34,6 +34,10 @@ class ExrInput {
   /// Reads lines y0 to y1, both included, of a part into the frame buffer. Errors: kBadFile.
   Result<void> read(int part, const Imf::FrameBuffer& target, int y0, int y1);
 
+  /// Reads tiles x0 to x1, both included, of a row of tiles of a tiled part at full size. A part may be read
+  /// by read() or by this, not by both. Errors: kBadFile.
+  Result<void> read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row);
+
  private:
   explicit ExrInput(std::string path) : path_(std::move(path)) {}
   std::string path_;

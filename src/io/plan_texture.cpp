@@ -128,7 +128,8 @@ std::vector<Cell> merged(std::vector<Cell> cells, std::size_t most) {
 Result<Census> census_of(const std::string& path, const Upsampler& upsampler, const MethodOptions& options) {
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
-  auto opened = io::RgbSource::open(path, options.layer, tiles::thread_count(options.threads));
+  auto opened =
+      io::RgbSource::open(path, options.layer, tiles::thread_count(options.threads), options.region);
   if (!opened) return opened.error();
   io::RgbSource& source = **opened;
   const io::ColorStage stage(source, upsampler, options, **kernels);

@@ -180,7 +180,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
-  auto source = io::SpectralSource::open(input, options.quantity, threads);
+  auto source = io::SpectralSource::open(input, options.quantity, threads, options.region);
   if (!source) return source.error();
   if (options.adaptation != Adaptation::kNone && (*source)->quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
@@ -208,7 +208,8 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   SPECTILE_TRY(job.prepare(**writer, spec.channels, slots));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  auto converted = io::convert(job, **writer, slots, lines, options,
+                               io::at_nonfinite(input, options, (*source)->offset()));
   if (!converted) return converted.error();
   ImageReport report = *std::move(converted);
   report.bands = (*source)->bands().count();

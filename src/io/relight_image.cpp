@@ -134,7 +134,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   const Matrix3 matrix = io::color_matrix(*projector, options.target, options.adaptation);
   const auto relighter = Relighter::create(*upsampler, *projector, matrix);
   if (!relighter) return relighter.error();
-  auto source = io::RgbSource::open(input, options.layer, threads);
+  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
   RelightJob job(**source, *relighter, options, **kernels);

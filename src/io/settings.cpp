@@ -2,6 +2,7 @@
 #include "src/io/settings.hpp"
 
 #include <OpenEXR/ImfStringAttribute.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 
 #include <bit>
@@ -139,10 +140,11 @@ class Line {
   Line& add(const ImageOptions& options) {
     // An option that is added there has to be looked at here: this no longer compiles then. The last three
     // change no bit.
-    const auto& [pixel, compression, nonfinite, threads, tile_lanes, progress] = options;
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, progress] = options;
     add("pixel", pixel == PixelType::kFloat ? "float" : "half");
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
+    add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
     return *this;
   }
 

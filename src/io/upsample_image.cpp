@@ -146,7 +146,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const int threads = tiles::thread_count(options.threads);
   const auto upsampler = io::upsampler_for(options);
   if (!upsampler) return upsampler.error();
-  auto source = io::RgbSource::open(input, options.layer, threads);
+  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
   const auto rows = rows::SampledRows::over(*upsampler, upsampler->bands());

@@ -57,6 +57,14 @@ void add_image_options(Texts& texts, const Options& usual) {
       texts, usual,
       {{"pixel",
         [&](Options& o) { o.pixel = o.pixel == PixelType::kHalf ? PixelType::kFloat : PixelType::kHalf; }},
+       {"region",
+        [](Options& o) {
+          o.region = std::array<int, 4>{1, 2, 3, 4};
+        }},
+       {"other region",
+        [](Options& o) {
+          o.region = std::array<int, 4>{12, 3, 4, 5};
+        }},
        {"nonfinite", [](Options& o) { o.nonfinite = NonFinite::kZero; }}});
 }
 
