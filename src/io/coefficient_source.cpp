@@ -101,6 +101,8 @@ Result<std::shared_ptr<Strip>> CoefficientSource::read(int first_line, int lines
   auto strip = make_strip(planes_, width(), first_line, lines);
   if (!strip) return strip.error();
   SPECTILE_TRY(region_ ? region_->fill(planes_, **strip) : fill_strip(*input_, part_, planes_, **strip));
+  // The last lines: all of it is of one file.
+  if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;
 }
 

@@ -68,6 +68,9 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
   SPECTILE_TRY(check_is_exr(path));
   std::unique_ptr<ExrInput> input(new ExrInput(path));
+  const auto identity = identify(path);
+  if (!identity) return identity.error();
+  input->identity_ = *identity;
   SPECTILE_TRY(guarded(path, [&] {
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
@@ -80,6 +83,20 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
   if (!flat)
     return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
   return input;
+}
+
+Result<ExrInput::Identity> ExrInput::identify(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return system_error(path, "read", errno);
+  return Identity{static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino),
+                  status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+Result<void> ExrInput::unchanged() const {
+  const auto now = identify(path_);
+  if (!now) return now.error();
+  if (*now == identity_) return {};
+  return make_error(ErrorCode::kBadFile, "{}: was changed while it was read", path_);
 }
 
 bool ExrInput::deep(int part) const {

@@ -162,6 +162,8 @@ Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {
     const std::size_t bytes = (*strip)->stride_bytes[0] * static_cast<std::size_t>(lines);
     for (std::size_t i : {1U, 2U}) std::memcpy((*strip)->planes[i].data(), (*strip)->planes[0].data(), bytes);
   }
+  // The last lines: all of it is of one file.
+  if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;
 }
 

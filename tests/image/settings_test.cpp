@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <set>
+#include <spectile/average.hpp>
 #include <spectile/settings.hpp>
 
 #include "tests/image/exr_files.hpp"
@@ -214,6 +215,8 @@ TEST_F(Settled, DoNotPassToWhatIsNoConversion) {
   const auto rgb = read_rgb_image(input_);
   ASSERT_TRUE(write_rgb_image(folder_ / "plain.exr", rgb->rgb.view(), rgb->width, rgb->height));
   EXPECT_EQ(*settings_of(folder_ / "plain.exr"), "");
+  ASSERT_TRUE(average_images(std::vector<std::string>{input_, input_}, folder_ / "average.exr"));
+  EXPECT_EQ(*settings_of(folder_ / "average.exr"), "");
   EXPECT_EQ(settings_of(folder_ / "none.exr").error().code, ErrorCode::kBadFile);
 }
 
@@ -246,6 +249,33 @@ TEST_F(Settled, TimesAreComparedToTheNanosecond) {
   const timespec later[2] = {{a.st_mtim.tv_sec, 501}, {a.st_mtim.tv_sec, 501}};
   ASSERT_EQ(::utimensat(AT_FDCWD, spectral_.c_str(), later, 0), 0);
   EXPECT_TRUE(fresh(spectral_, {input_}, settings_));
+}
+
+TEST_F(Settled, AnInputThatChangesWhileItIsReadIsAnError) {
+  Picture picture = test::blank(20, 3000);
+  test::add_rgb_noise(picture, Imf::HALF);
+  test::write_scanlines(folder_ / "long.exr", picture);
+  UpsampleImageOptions options;
+  options.threads = 1;
+  const auto changed = [&](const std::function<void()>& change) {
+    int calls = 0;
+    options.progress = [&](const Progress&) {
+      if (calls++ == 0) change();
+      return true;
+    };
+    const auto report = upsample_image(folder_ / "long.exr", spectral_, options);
+    EXPECT_FALSE(std::filesystem::exists(spectral_));
+    return report ? "" : report.error().message;
+  };
+  const std::string message = (folder_ / "long.exr") + ": was changed while it was read";
+  EXPECT_EQ(changed([&] { set_time(folder_ / "long.exr", -20); }), message);
+  EXPECT_EQ(changed([&] {
+              std::filesystem::copy_file(folder_ / "long.exr", folder_ / "copy.exr");
+              std::filesystem::rename(folder_ / "copy.exr", folder_ / "long.exr");
+            }),
+            message);
+  options.progress = nullptr;
+  EXPECT_TRUE(upsample_image(folder_ / "long.exr", spectral_, options));
 }
 
 TEST_F(Settled, AFileCutShortIsNotUpToDate) {
