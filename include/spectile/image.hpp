@@ -74,6 +74,11 @@ struct ImageOptions {
   PixelType pixel = PixelType::kHalf;
   Compression compression;
   NonFinite nonfinite = NonFinite::kStop;
+  /// The part of the input to convert: x0, y0, x1, y1, inclusive, in the coordinates of its data window,
+  /// which is then the output's; all of it where none. No more is decoded than the lines, or tiles, that it
+  /// touches. Limited to the data window, which the report notes; kBadArgument where it lies outside. For
+  /// functions that read one image.
+  std::optional<std::array<int, 4>> region;
   int threads = 0;                 ///< 0: every core that the process may use
   std::size_t tile_lanes = 65536;  ///< most pixels a kernel call works on, 64 or more
   ProgressFunction progress;

@@ -42,9 +42,10 @@ Result<Spectrum> named_spectrum(std::string_view name);
 /// Source: CGATS.17; Argyll CMS, File formats.
 Result<Spectrum> load_spectrum(const std::string& path, std::size_t column = 0);
 
-/// Every spectrum of a file: those of a text of columns, whose lines hold a wavelength and a value for each
-/// spectrum, or the rows of CGATS data. Rules, units and errors as for load_spectrum(); kBadFile too for a
-/// line with more or fewer values than the first.
+/// Every spectrum of a file, in its order: those of a text of columns, whose lines hold a wavelength and a
+/// value for each spectrum; of lines "name,wavelength_nm,value" (comma, semicolon or tab), put together by
+/// name; or the rows of CGATS data. At most 100000. Rules, units and errors as for load_spectrum(); kBadFile
+/// too for a line with more or fewer values than the first.
 Result<std::vector<Spectrum>> load_spectra(const std::string& path);
 
 /// A name if there is one, else a file. Errors: those of named_spectrum() for a text that is no path of a

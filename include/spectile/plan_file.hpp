@@ -26,7 +26,8 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source);
 /// The same from a file. Errors: kNoPermission too.
 Result<Plan> load_plan(const std::string& path);
 
-/// Writes a plan, whole or not at all. Errors: kNoPermission, kNoSpace, kBadFile.
+/// Writes a plan, whole or not at all. Errors: kNoPermission, kNoSpace, kBadFile; kBadArgument for a plan
+/// that parse_plan() would refuse.
 Result<void> save_plan(const Plan& plan, const std::string& path);
 
 /// Reflectances of a texture's colours: at most `most` representative ones, each upsampled by the options'

@@ -25,6 +25,7 @@
 #include <spectile/rgb_space.hpp>
 #include <spectile/sampled_spectra.hpp>
 #include <spectile/sensor.hpp>
+#include <spectile/settings.hpp>
 #include <spectile/spectral_texture.hpp>
 #include <spectile/spectrum.hpp>
 #include <spectile/units.hpp>

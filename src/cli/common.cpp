@@ -13,6 +13,8 @@
 #include <memory>
 #include <set>
 
+#include "src/cli/batch.hpp"
+
 namespace spectile::cli {
 namespace {
 
@@ -80,6 +82,10 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"seconds", r.seconds},
           {"mpixel_per_s", static_cast<double>(r.pixels()) / r.seconds * 1e-6},
           {"notes", r.notes}};
+}
+
+void print_json(const nlohmann::json& json) {
+  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string plural(std::uint64_t n, const char* what) {
@@ -209,11 +215,25 @@ int plan_jobs(const std::vector<std::string>& inputs, const std::string& output,
   return kOk;
 }
 
-int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& options,
+int run_jobs(const Batch& batch, const Common& common, ImageOptions& options,
              const std::function<Result<ImageReport>(const Job&)>& convert) {
   int exit = kOk;
+  std::size_t skipped = 0;
+  std::size_t converted = 0;
   catch_signals();
-  for (const Job& job : jobs) {
+  const bool talks = !common.quiet && !common.json;
+  if (batch.shard && talks) {
+    fmt::print("shard {}: {} of {}\n", batch.shard->text(), batch.jobs.size(), plural(batch.inputs, "input"));
+  }
+  for (const Job& job : batch.jobs) {
+    if (is_up_to_date(batch, job)) {
+      ++skipped;
+      if (talks) fmt::print("{} -> {}: up to date\n", job.input, job.output);
+      if (common.json) print_json({{"input", job.input}, {"output", job.output}, {"skipped", true}});
+      if (const int bad = batch.manifest.add(skipped_line(batch, job))) return bad;
+      if (interrupted()) return kInterrupted;
+      continue;
+    }
     auto report = [&] {
       ProgressBar bar(std::filesystem::path(job.input).filename().string(), !common.quiet);
       options.progress = [&bar](const Progress& progress) { return bar.update(progress); };
@@ -224,19 +244,24 @@ int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& o
     if (!report) {
       exit = std::max(exit, complain(report.error()));
       if (common.json) {
-        const nlohmann::json failure = {
-            {"input", job.input}, {"output", job.output}, {"error", report.error().message}};
-        fmt::print("{}\n", failure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_json({{"input", job.input}, {"output", job.output}, {"error", report.error().message}});
       }
+      if (const int bad = batch.manifest.add(failed_line(batch, job, report.error()))) return bad;
       if (interrupted()) return kInterrupted;
       continue;
     }
+    ++converted;
     if (common.json) {
-      fmt::print("{}\n",
-                 to_json(job, *report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      print_json(to_json(job, *report));
     } else if (!common.quiet) {
       print_report(job, *report);
     }
+    if (const int bad = batch.manifest.add(converted_line(batch, job, *report))) return bad;
+  }
+  if (batch.update && talks) {
+    const std::size_t failed = batch.jobs.size() - converted - skipped;
+    fmt::print("{} converted, {} up to date{}\n", converted, skipped,
+               failed > 0 ? fmt::format(", {} failed", failed) : "");
   }
   return exit;
 }

@@ -57,8 +57,11 @@ struct Job {
 /// when it does not exist and there are several inputs or the name ends in a slash. Says what is wrong.
 int plan_jobs(const std::vector<std::string>& inputs, const std::string& output, std::vector<Job>& jobs);
 
-/// Runs convert(job, options) for each job; one that fails does not stop the others. Prints reports.
-int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& options,
+struct Batch;
+
+/// Runs convert(job) for each job of a batch that needs it; one that fails does not stop the others. Prints
+/// reports.
+int run_jobs(const Batch& batch, const Common& common, ImageOptions& options,
              const std::function<Result<ImageReport>(const Job&)>& convert);
 
 /// "12.3 Mpixel/s".
@@ -90,6 +93,7 @@ void add_project(CLI::App& app, int& exit);
 void add_info(CLI::App& app, int& exit);
 void add_verify(CLI::App& app, int& exit);
 void add_spectra(CLI::App& app, int& exit);
+void add_plan(CLI::App& app, int& exit);
 void add_film(CLI::App& app, int& exit);
 
 // Each adds its subcommand to "film".

@@ -1,6 +1,7 @@
 // spectile expand: images of coefficients to spectral ones.
 #include <memory>
 
+#include "src/cli/batch.hpp"
 #include "src/cli/common.hpp"
 
 namespace spectile::cli {
@@ -9,6 +10,7 @@ namespace {
 struct Arguments {
   Common common;
   WriteOptions write;
+  BatchOptions batch;
   std::vector<std::string> inputs;
   std::string output;
   std::string bands;
@@ -18,14 +20,16 @@ int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   ExpandImageOptions options;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   if (!a.bands.empty()) {
     const auto bands = Bands::parse(a.bands);
     if (!bands) return complain(bands.error());
     options.bands = *bands;
   }
-  std::vector<Job> jobs;
-  if (const int bad = plan_jobs(a.inputs, a.output, jobs)) return bad;
-  return run_jobs(jobs, a.common, options,
+  Batch batch;
+  if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
+  batch.settings = settings_text(options);
+  return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return expand_image(job.input, job.output, options); });
 }
 
@@ -43,6 +47,7 @@ void add_expand(CLI::App& app, int& exit) {
       "give the bits that upsample writes. For others, basis spectra are made anew, and a sigmoid "
       "is evaluated at their centres, as far as the bands it was made for reach");
   add_write_options(*command, a->write, "half");
+  add_batch_options(*command, a->batch);
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

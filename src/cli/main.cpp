@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   add_info(app, exit);
   add_verify(app, exit);
   add_spectra(app, exit);
+  add_plan(app, exit);
   add_film(app, exit);
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 // spectile project: spectral images to colour.
 #include <memory>
 
+#include "src/cli/batch.hpp"
 #include "src/cli/common.hpp"
 #include "src/cli/method_options.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 struct Arguments {
   Common common;
   WriteOptions write;
+  BatchOptions batch;
   std::vector<std::string> inputs;
   std::string output;
   std::string to = "srgb";
@@ -24,6 +26,7 @@ int run(const Arguments& a) {
   ProjectImageOptions options;
   options.pixel = PixelType::kFloat;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   options.target = a.to == "xyz"         ? ColorTarget::kXyz
                    : a.to == "luminance" ? ColorTarget::kLuminance
                                          : ColorTarget::kSrgb;
@@ -39,9 +42,11 @@ int run(const Arguments& a) {
     if (!quantity) return complain(quantity.error());
     options.quantity = *quantity;
   }
-  std::vector<Job> jobs;
-  if (const int bad = plan_jobs(a.inputs, a.output, jobs)) return bad;
-  return run_jobs(jobs, a.common, options,
+  Batch batch;
+  if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
+  batch.settings = settings_text(options);
+  batch.made_from = files_among({a.illuminant});
+  return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return project_image(job.input, job.output, options); });
 }
 
@@ -66,6 +71,7 @@ void add_project(CLI::App& app, int& exit) {
                    "Which to take where a file holds both: reflectance or illuminant")
       ->check(CLI::IsMember({"reflectance", "illuminant"}));
   add_write_options(*command, a->write, "float");
+  add_batch_options(*command, a->batch);
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

@@ -1,6 +1,7 @@
 // spectile relight: textures under another light.
 #include <memory>
 
+#include "src/cli/batch.hpp"
 #include "src/cli/common.hpp"
 #include "src/cli/method_options.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 struct Arguments {
   Common common;
   WriteOptions write;
+  BatchOptions batch;
   MethodArguments method;
   std::vector<std::string> inputs;
   std::string output;
@@ -26,6 +28,7 @@ int run(const Arguments& a) {
   if (!light) return complain(light.error());
   RelightImageOptions options(*std::move(light));
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
   options.target = a.to == "xyz"         ? ColorTarget::kXyz
                    : a.to == "luminance" ? ColorTarget::kLuminance
@@ -33,9 +36,11 @@ int run(const Arguments& a) {
   options.seen_by = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
   options.adaptation = adaptation_of(a.adapt);
   options.way = a.way == "spectra" ? Way::kSpectra : Way::kDirect;
-  std::vector<Job> jobs;
-  if (const int bad = plan_jobs(a.inputs, a.output, jobs)) return bad;
-  return run_jobs(jobs, a.common, options,
+  Batch batch;
+  if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
+  batch.settings = settings_text(options);
+  batch.made_from = files_among({a.illuminant, a.method.light});
+  return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return relight_image(job.input, job.output, options); });
 }
 
@@ -62,6 +67,7 @@ void add_relight(CLI::App& app, int& exit) {
       ->capture_default_str();
   add_method_options(*command, a->method);
   add_write_options(*command, a->write, "half");
+  add_batch_options(*command, a->batch);
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

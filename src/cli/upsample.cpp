@@ -1,6 +1,7 @@
 // spectile upsample: RGB images to spectral ones.
 #include <memory>
 
+#include "src/cli/batch.hpp"
 #include "src/cli/common.hpp"
 #include "src/cli/method_options.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 struct Arguments {
   Common common;
   WriteOptions write;
+  BatchOptions batch;
   std::vector<std::string> inputs;
   std::string output;
   MethodArguments method;
@@ -20,11 +22,14 @@ int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   UpsampleImageOptions options;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const int bad = apply_region(a.batch, options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
   options.store = a.store == "coefficients" ? Store::kCoefficients : Store::kSpectra;
-  std::vector<Job> jobs;
-  if (const int bad = plan_jobs(a.inputs, a.output, jobs)) return bad;
-  return run_jobs(jobs, a.common, options,
+  Batch batch;
+  if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
+  batch.settings = settings_text(options);
+  batch.made_from = files_among({a.method.light});
+  return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return upsample_image(job.input, job.output, options); });
 }
 
@@ -44,6 +49,7 @@ void add_upsample(CLI::App& app, int& exit) {
       ->check(CLI::IsMember({"spectra", "coefficients"}))
       ->capture_default_str();
   add_write_options(*command, a->write, "half");
+  add_batch_options(*command, a->batch);
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

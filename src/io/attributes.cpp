@@ -23,6 +23,7 @@
 #include <set>
 
 #include "src/io/memory_stream.hpp"
+#include "src/io/settings.hpp"
 
 namespace spectile::io {
 namespace {
@@ -145,7 +146,8 @@ bool set_list(const Imf::Attribute& from, const Place& at, exr_result_t& result)
 exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part,
                              const std::vector<std::string>& replaced) {
   for (auto it = from.begin(); it != from.end(); ++it) {
-    if (describes_storage(it.name())) continue;
+    // How the source was made is nothing that the new file was made with.
+    if (describes_storage(it.name()) || it.name() == std::string_view(kSettingsAttribute)) continue;
     if (std::find(replaced.begin(), replaced.end(), it.name()) != replaced.end()) continue;
     const Imf::Attribute& attribute = it.attribute();
     const Place at = {to, part, it.name()};

@@ -29,7 +29,8 @@ bool claims_coefficients(const Imf::Header& header) {
   return !spectral && header.find("spectileCoefficients") != header.end();
 }
 
-Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_ptr<ExrInput> input) {
+Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_ptr<ExrInput> input,
+                                                                   const Region& region) {
   const std::string& path = input->path();
   int part = 0;
   while (part < input->parts() && (input->deep(part) || !claims_coefficients(input->header(part)))) ++part;
@@ -44,6 +45,11 @@ Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_p
   source->part_ = part;
   source->upsampler_ = std::make_unique<Upsampler>(*std::move(upsampler));
   SPECTILE_TRY(source->choose_channels());
+  if (region) {
+    auto reader = RegionReader::create(*source->input_, part, *region, source->notes_);
+    if (!reader) return reader.error();
+    source->region_ = *std::move(reader);
+  }
   return source;
 }
 
@@ -94,7 +100,9 @@ Result<void> CoefficientSource::choose_channels() {
 Result<std::shared_ptr<Strip>> CoefficientSource::read(int first_line, int lines) {
   auto strip = make_strip(planes_, width(), first_line, lines);
   if (!strip) return strip.error();
-  SPECTILE_TRY(fill_strip(*input_, part_, planes_, **strip));
+  SPECTILE_TRY(region_ ? region_->fill(planes_, **strip) : fill_strip(*input_, part_, planes_, **strip));
+  // The last lines: all of it is of one file.
+  if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/io/exr_input.hpp"
+#include "src/io/region.hpp"
 #include "src/io/strips.hpp"
 
 namespace spectile::io {
@@ -21,12 +22,16 @@ class CoefficientSource {
  public:
   /// Takes the first flat part that claims coefficients. Errors: kBadFile where there is none, where
   /// attributes are missing or damaged, channels missing, subsampled or too many, or spectral channels there
-  /// already.
-  static Result<std::unique_ptr<CoefficientSource>> open(std::unique_ptr<ExrInput> input);
+  /// already; those of RegionReader.
+  static Result<std::unique_ptr<CoefficientSource>> open(std::unique_ptr<ExrInput> input,
+                                                         const Region& region = {});
 
   ExrInput& input() noexcept { return *input_; }
   int part() const noexcept { return part_; }
-  const Imf::Header& header() const { return input_->header(part_); }
+  /// That of the part, with the region as data window.
+  const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }
+  /// Of the region within the data window.
+  std::array<int, 2> offset() const { return region_ ? region_->offset() : std::array<int, 2>{}; }
   int width() const { return width_of(header()); }
   int height() const { return height_of(header()); }
   /// The upsampler that made the coefficients.
@@ -44,6 +49,7 @@ class CoefficientSource {
   Result<void> choose_channels();
 
   std::unique_ptr<ExrInput> input_;
+  std::optional<RegionReader> region_;
   int part_ = 0;
   std::unique_ptr<Upsampler> upsampler_;
   std::size_t coefficients_ = 0;

@@ -49,15 +49,15 @@ float ColorStage::line(const Strip& strip, int line, const ColorLine& color, Lin
 
 std::optional<Error> ColorStage::refusal(const std::string& path, const LineStats& stats) const {
   if (options_.nonfinite == NonFinite::kStop && stats.nonfinite.count > 0) {
-    return stopped_at(path, ErrorCode::kNonFinite, "non-finite", stats.nonfinite,
+    return stopped_at(path, ErrorCode::kNonFinite, "non-finite", stats.nonfinite.moved(source_.offset()),
                       "--nonfinite zero makes them black");
   }
   if (options_.negative == Negative::kStop && stats.negative.count > 0) {
-    return stopped_at(path, ErrorCode::kBadFile, "negative", stats.negative,
+    return stopped_at(path, ErrorCode::kBadFile, "negative", stats.negative.moved(source_.offset()),
                       "--negative clip or keep converts them");
   }
   if (out_of_gamut_ == GamutPolicy::kStop && stats.outside.count > 0) {
-    return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside,
+    return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside.moved(source_.offset()),
                       "--out-of-gamut clip or keep converts them");
   }
   return {};

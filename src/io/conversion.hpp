@@ -1,6 +1,7 @@
 // Conversion: the streaming frame common to every image-to-image job.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -24,6 +25,8 @@ struct PixelCount {
   int first_y = -1;
   void add(std::uint64_t more, int x, int y);
   void add(const PixelCount& later);
+  /// The same with a first pixel that is counted from elsewhere.
+  PixelCount moved(const std::array<int, 2>& by) const { return {count, first_x + by[0], first_y + by[1]}; }
 };
 
 /// What a run of lines was found to hold.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -11,6 +12,7 @@
 #include "src/io/conversion.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/settings.hpp"
 #include "src/ops/tiles.hpp"
 
 namespace spectile {
@@ -124,7 +126,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   const int threads = tiles::thread_count(options.threads);
   auto file = io::ExrInput::open(input, threads);
   if (!file) return file.error();
-  auto source = io::CoefficientSource::open(*std::move(file));
+  auto source = io::CoefficientSource::open(*std::move(file), options.region);
   if (!source) return source.error();
   const Upsampler& upsampler = (*source)->upsampler();
   const Bands bands = options.bands.value_or(upsampler.bands());
@@ -144,13 +146,15 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   }
   spec.text_attributes = io::method_attributes(upsampler, made, false);
   io::add_layout_attributes(spec.text_attributes, upsampler.quantity());
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, slots));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  auto converted = io::convert(job, **writer, slots, lines, options,
+                               io::at_nonfinite(input, options, (*source)->offset()));
   if (!converted) return converted.error();
   ImageReport report = *std::move(converted);
   report.bands = bands.count();

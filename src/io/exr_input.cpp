@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTiledInputPart.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -67,6 +68,9 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
   SPECTILE_TRY(check_is_exr(path));
   std::unique_ptr<ExrInput> input(new ExrInput(path));
+  const auto identity = identify(path);
+  if (!identity) return identity.error();
+  input->identity_ = *identity;
   SPECTILE_TRY(guarded(path, [&] {
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
@@ -81,6 +85,20 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
   return input;
 }
 
+Result<ExrInput::Identity> ExrInput::identify(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return system_error(path, "read", errno);
+  return Identity{static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino),
+                  status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+Result<void> ExrInput::unchanged() const {
+  const auto now = identify(path_);
+  if (!now) return now.error();
+  if (*now == identity_) return {};
+  return make_error(ErrorCode::kBadFile, "{}: was changed while it was read", path_);
+}
+
 bool ExrInput::deep(int part) const {
   const Imf::Header& h = header(part);
   return h.hasType() && Imf::isDeepData(h.type());
@@ -91,6 +109,14 @@ Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, in
     Imf::InputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readPixels(y0, y1);
+  });
+}
+
+Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    input.setFrameBuffer(target);
+    input.readTiles(x0, x1, row, row);
   });
 }
 

@@ -5,6 +5,8 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <spectile/result.hpp>
@@ -31,12 +33,25 @@ class ExrInput {
   const Imf::Header& header(int part) const { return file_->header(part); }
   bool deep(int part) const;
 
+  /// Whether the path still leads to the file that was opened, as it was then; what was read is of one piece
+  /// if so. Errors: kBadFile.
+  Result<void> unchanged() const;
+
   /// Reads lines y0 to y1, both included, of a part into the frame buffer. Errors: kBadFile.
   Result<void> read(int part, const Imf::FrameBuffer& target, int y0, int y1);
 
+  /// Reads tiles x0 to x1, both included, of a row of tiles of a tiled part at full size. A part may be read
+  /// by read() or by this, not by both. Errors: kBadFile.
+  Result<void> read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row);
+
  private:
   explicit ExrInput(std::string path) : path_(std::move(path)) {}
+  /// What tells a file from another, and from itself after a change.
+  using Identity = std::array<std::int64_t, 5>;
+  static Result<Identity> identify(const std::string& path);
+
   std::string path_;
+  Identity identity_{};
   std::unique_ptr<Imf::MultiPartInputFile> file_;
 };
 

@@ -16,13 +16,13 @@ Result<void> check_distinct(const std::string& input, const std::string& output)
   return {};
 }
 
-Refusal at_nonfinite(const std::string& input, const ImageOptions& options) {
-  return
-      [&input, stop = options.nonfinite == NonFinite::kStop](const LineStats& stats) -> std::optional<Error> {
-        if (!stop || stats.nonfinite.count == 0) return {};
-        return stopped_at(input, ErrorCode::kNonFinite, "non-finite", stats.nonfinite,
-                          "--nonfinite zero makes them black");
-      };
+Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std::array<int, 2> offset) {
+  return [&input, offset,
+          stop = options.nonfinite == NonFinite::kStop](const LineStats& stats) -> std::optional<Error> {
+    if (!stop || stats.nonfinite.count == 0) return {};
+    return stopped_at(input, ErrorCode::kNonFinite, "non-finite", stats.nonfinite.moved(offset),
+                      "--nonfinite zero makes them black");
+  };
 }
 
 Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,

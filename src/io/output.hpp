@@ -1,6 +1,7 @@
 // What every image job does at its edges: checks of its paths, and the report.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <spectile/image.hpp>
@@ -18,8 +19,9 @@ Result<void> check_distinct(const std::string& input, const std::string& output)
 /// The error that what a conversion found makes of it, where it forbids an output; else nothing.
 using Refusal = std::function<std::optional<Error>(const LineStats&)>;
 
-/// That of conversions of spectra: at numbers that are not finite, where the options say stop.
-Refusal at_nonfinite(const std::string& input, const ImageOptions& options);
+/// That of conversions of spectra: at numbers that are not finite, where the options say stop. `offset`: of
+/// what is converted within the input's data window.
+Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std::array<int, 2> offset);
 
 /// Runs a conversion and reports its size, counts and bytes.
 /// Errors: those of run_conversion(), and the refusal.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <spectile/image.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -11,6 +12,7 @@
 #include "src/io/lines.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/settings.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/color_matrix.hpp"
 #include "src/ops/tiles.hpp"
@@ -178,7 +180,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
-  auto source = io::SpectralSource::open(input, options.quantity, threads);
+  auto source = io::SpectralSource::open(input, options.quantity, threads, options.region);
   if (!source) return source.error();
   if (options.adaptation != Adaptation::kNone && (*source)->quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
@@ -199,13 +201,15 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.replaced.insert(spec.replaced.end(),
                        {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
   SPECTILE_TRY(job.prepare(**writer, spec.channels, slots));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options, io::at_nonfinite(input, options));
+  auto converted = io::convert(job, **writer, slots, lines, options,
+                               io::at_nonfinite(input, options, (*source)->offset()));
   if (!converted) return converted.error();
   ImageReport report = *std::move(converted);
   report.bands = (*source)->bands().count();

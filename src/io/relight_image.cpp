@@ -3,6 +3,7 @@
 #include <cstring>
 #include <spectile/image.hpp>
 #include <spectile/relight.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -10,6 +11,7 @@
 #include "src/io/color_stage.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/settings.hpp"
 #include "src/ops/relight_rows.hpp"
 #include "src/ops/tiles.hpp"
 
@@ -132,7 +134,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   const Matrix3 matrix = io::color_matrix(*projector, options.target, options.adaptation);
   const auto relighter = Relighter::create(*upsampler, *projector, matrix);
   if (!relighter) return relighter.error();
-  auto source = io::RgbSource::open(input, options.layer, threads);
+  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
   RelightJob job(**source, *relighter, options, **kernels);
@@ -147,6 +149,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   if (options.target == ColorTarget::kSrgb) {
     spec.text_attributes.emplace_back("colorInteropID", "lin_rec709_scene");
   }
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();

@@ -31,7 +31,7 @@ Imf::PixelType read_type(Imf::PixelType stored) {
 }  // namespace
 
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
-                                                   int threads) {
+                                                   int threads, const Region& region) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<RgbSource> source(new RgbSource);
@@ -40,6 +40,11 @@ Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, cons
   auto space = color_space_of(source->header(), path);
   if (!space) return space.error();
   source->space_ = *std::move(space);
+  if (region) {
+    auto reader = RegionReader::create(*source->input_, source->part_, *region, source->notes_);
+    if (!reader) return reader.error();
+    source->region_ = *std::move(reader);
+  }
   if (source->with_chroma_) {
     SPECTILE_TRY(guarded(path, [&] {
       source->chroma_ = std::make_unique<Imf::RgbaInputFile>(path.c_str(), threads > 1 ? threads : 0);
@@ -147,7 +152,9 @@ Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {
     wanted[i].name = file_names_[i];
     any = any || !file_names_[i].empty();
   }
-  if (any) SPECTILE_TRY(fill_strip(*input_, part_, wanted, **strip));
+  if (any) {
+    SPECTILE_TRY(region_ ? region_->fill(wanted, **strip) : fill_strip(*input_, part_, wanted, **strip));
+  }
   if (with_chroma_) {
     SPECTILE_TRY(read_chroma(**strip));
   } else if (file_names_[1].empty()) {
@@ -155,17 +162,22 @@ Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {
     const std::size_t bytes = (*strip)->stride_bytes[0] * static_cast<std::size_t>(lines);
     for (std::size_t i : {1U, 2U}) std::memcpy((*strip)->planes[i].data(), (*strip)->planes[0].data(), bytes);
   }
+  // The last lines: all of it is of one file.
+  if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;
 }
 
 Result<void> RgbSource::read_chroma(Strip& strip) {
-  const Imath::Box2i window = header().dataWindow();
+  // OpenEXR gives whole lines of the file.
+  const Imath::Box2i window = input_->header(part_).dataWindow();
+  const auto [left, top] = offset();
   const auto w = static_cast<std::size_t>(width());
-  std::vector<Imf::Rgba> line(w);
-  return guarded(input_->path(), [&] {
+  std::vector<Imf::Rgba> whole(static_cast<std::size_t>(width_of(input_->header(part_))));
+  const Imf::Rgba* const line = whole.data() + left;
+  return guarded(input_->path(), [&, first = top] {
     for (int i = 0; i < strip.lines; ++i) {
-      const int y = window.min.y + strip.first_line + i;
-      chroma_->setFrameBuffer(line.data() - window.min.x, 1, 0);
+      const int y = window.min.y + first + strip.first_line + i;
+      chroma_->setFrameBuffer(whole.data() - window.min.x, 1, 0);
       chroma_->readPixels(y);
       for (std::size_t x = 0; x < w; ++x) {
         const std::uint16_t rgb[3] = {line[x].r.bits(), line[x].g.bits(), line[x].b.bits()};

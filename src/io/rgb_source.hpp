@@ -11,6 +11,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/color_space.hpp"
 #include "src/io/exr_input.hpp"
+#include "src/io/region.hpp"
 #include "src/io/strips.hpp"
 
 namespace spectile::io {
@@ -19,11 +20,14 @@ namespace spectile::io {
 class RgbSource {
  public:
   /// Finds R, G, B (or Y, or Y, RY, BY) of a layer, view or part, or the plain ones for an empty name.
-  /// Errors: kBadFile, kNoPermission.
+  /// Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer,
-                                                 int threads);
+                                                 int threads, const Region& region = {});
 
-  const Imf::Header& header() const { return input_->header(part_); }
+  /// That of the part, with the region as data window.
+  const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }
+  /// Of the region within the data window.
+  std::array<int, 2> offset() const { return region_ ? region_->offset() : std::array<int, 2>{}; }
   int width() const { return width_of(header()); }
   int height() const { return height_of(header()); }
   const RgbSpace& color_space() const noexcept { return space_; }
@@ -47,6 +51,7 @@ class RgbSource {
   Result<void> read_chroma(Strip& strip);
 
   std::unique_ptr<ExrInput> input_;
+  std::optional<RegionReader> region_;
   std::unique_ptr<Imf::RgbaInputFile> chroma_;  // luminance and chroma are put together by OpenEXR
   int part_ = 0;
   std::string red_, green_, blue_;  // channel names in the file; all the same for luminance alone

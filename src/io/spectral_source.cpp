@@ -38,7 +38,8 @@ std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std
 }
 
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
-                                                             std::optional<Quantity> wanted, int threads) {
+                                                             std::optional<Quantity> wanted, int threads,
+                                                             const Region& region) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<SpectralSource> source(new SpectralSource);
@@ -85,13 +86,20 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
     }
     source->planes_.push_back({name, it.channel().type});
   }
+  if (region) {
+    auto reader = RegionReader::create(*source->input_, source->part_, *region, source->notes_);
+    if (!reader) return reader.error();
+    source->region_ = *std::move(reader);
+  }
   return source;
 }
 
 Result<std::shared_ptr<Strip>> SpectralSource::read(int first_line, int lines) {
   auto strip = make_strip(planes_, width(), first_line, lines);
   if (!strip) return strip.error();
-  SPECTILE_TRY(fill_strip(*input_, part_, planes_, **strip));
+  SPECTILE_TRY(region_ ? region_->fill(planes_, **strip) : fill_strip(*input_, part_, planes_, **strip));
+  // The last lines: all of it is of one file.
+  if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;
 }
 

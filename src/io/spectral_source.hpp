@@ -10,6 +10,7 @@
 
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/exr_input.hpp"
+#include "src/io/region.hpp"
 #include "src/io/strips.hpp"
 
 namespace spectile::io {
@@ -28,11 +29,14 @@ std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std
 /// Planes 0 to bands - 1 of its strips are the bands, the others pass through.
 class SpectralSource {
  public:
-  /// Errors: kBadFile, kNoPermission.
+  /// Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, std::optional<Quantity> wanted,
-                                                      int threads);
+                                                      int threads, const Region& region = {});
 
-  const Imf::Header& header() const { return input_->header(part_); }
+  /// That of the part, with the region as data window.
+  const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }
+  /// Of the region within the data window.
+  std::array<int, 2> offset() const { return region_ ? region_->offset() : std::array<int, 2>{}; }
   int width() const { return width_of(header()); }
   int height() const { return height_of(header()); }
   Quantity quantity() const noexcept { return channels_.quantity; }
@@ -51,6 +55,7 @@ class SpectralSource {
  private:
   SpectralSource() = default;
   std::unique_ptr<ExrInput> input_;
+  std::optional<RegionReader> region_;
   int part_ = 0;
   SpectralChannels channels_;
   Bands bands_;

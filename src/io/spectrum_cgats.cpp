@@ -184,6 +184,63 @@ Result<std::size_t> count_rows(const TextFile& file, const Table& table, std::si
   return rows;
 }
 
+/// CGATS data whose keywords agree with each other.
+struct SpectralData {
+  Table table;
+  std::vector<double> wavelengths_nm;
+  double norm = 1;
+  std::vector<std::size_t> places;  ///< of the spectral fields in a row
+  std::size_t fields = 0;           ///< of a row
+  std::size_t rows = 0;
+};
+
+Result<SpectralData> read_data(const TextFile& file) {
+  SpectralData out;
+  auto table = Reader(file).read();
+  if (!table) return table.error();
+  out.table = *std::move(table);
+  const auto bands = number_of(file, out.table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMostBands);
+  if (!bands) return bands.error();
+  const auto start = number_of(file, out.table, "SPECTRAL_START_NM", std::nullopt, false, 1e-3, 1e9);
+  if (!start) return start.error();
+  const auto end = number_of(file, out.table, "SPECTRAL_END_NM", std::nullopt, false, 1e-3, 1e9);
+  if (!end) return end.error();
+  if (!(*end > *start)) {
+    return line_error(file, out.table.numbers.at("SPECTRAL_END_NM").line,
+                      fmt::format("SPECTRAL_END_NM {} is not above SPECTRAL_START_NM {}", *end, *start));
+  }
+  const auto norm = number_of(file, out.table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300);
+  if (!norm) return norm.error();
+  out.norm = *norm;
+  const auto count = static_cast<std::size_t>(*bands);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.wavelengths_nm.push_back(*start + (*end - *start) * static_cast<double>(i) / (*bands - 1));
+  }
+  auto places = spectral_fields(file, out.table, count);
+  if (!places) return places.error();
+  out.places = *std::move(places);
+  out.fields = out.table.format_line == 0 ? out.places.size() : out.table.fields.size();
+  const auto rows = count_rows(file, out.table, out.fields);
+  if (!rows) return rows.error();
+  out.rows = *rows;
+  return out;
+}
+
+Result<SampleLines> row_of(const TextFile& file, const SpectralData& data, std::size_t row) {
+  SampleLines out;
+  out.wavelengths_nm = data.wavelengths_nm;
+  for (const std::size_t place : data.places) {
+    const Word& word = data.table.data[row * data.fields + place];
+    const std::optional<double> value = number_in(word.text);
+    if (!value) return line_error(file, word.line, quoted(word.text) + " is not a number");
+    const double scaled = *value / data.norm;
+    if (!std::isfinite(scaled)) return line_error(file, word.line, quoted(word.text) + " is not finite");
+    out.values.push_back(scaled);
+    out.lines.push_back(word.line);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_cgats(const TextFile& file) {
@@ -199,42 +256,23 @@ bool is_cgats(const TextFile& file) {
 }
 
 Result<SampleLines> read_cgats(const TextFile& file, std::size_t column) {
-  const auto table = Reader(file).read();
-  if (!table) return table.error();
-  const auto bands = number_of(file, *table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMostBands);
-  if (!bands) return bands.error();
-  const auto start = number_of(file, *table, "SPECTRAL_START_NM", std::nullopt, false, 1e-3, 1e9);
-  if (!start) return start.error();
-  const auto end = number_of(file, *table, "SPECTRAL_END_NM", std::nullopt, false, 1e-3, 1e9);
-  if (!end) return end.error();
-  if (!(*end > *start)) {
-    return line_error(file, table->numbers.at("SPECTRAL_END_NM").line,
-                      fmt::format("SPECTRAL_END_NM {} is not above SPECTRAL_START_NM {}", *end, *start));
-  }
-  const auto norm = number_of(file, *table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300);
-  if (!norm) return norm.error();
-  SampleLines out;
-  const auto count = static_cast<std::size_t>(*bands);
-  for (std::size_t i = 0; i < count; ++i) {
-    out.wavelengths_nm.push_back(*start + (*end - *start) * static_cast<double>(i) / (*bands - 1));
-  }
-  const auto places = spectral_fields(file, *table, out.wavelengths_nm.size());
-  if (!places) return places.error();
-  const std::size_t fields = table->format_line == 0 ? places->size() : table->fields.size();
-  const auto rows = count_rows(file, *table, fields);
-  if (!rows) return rows.error();
-  if (column >= *rows) {
+  const auto data = read_data(file);
+  if (!data) return data.error();
+  if (column >= data->rows) {
     return make_error(ErrorCode::kBadArgument, "{}: has {} data row{}, counted from 0; there is no {}",
-                      file.path, *rows, *rows == 1 ? "" : "s", column);
+                      file.path, data->rows, data->rows == 1 ? "" : "s", column);
   }
-  for (const std::size_t place : *places) {
-    const Word& word = table->data[column * fields + place];
-    const std::optional<double> value = number_in(word.text);
-    if (!value) return line_error(file, word.line, quoted(word.text) + " is not a number");
-    const double scaled = *value / *norm;
-    if (!std::isfinite(scaled)) return line_error(file, word.line, quoted(word.text) + " is not finite");
-    out.values.push_back(scaled);
-    out.lines.push_back(word.line);
+  return row_of(file, *data, column);
+}
+
+Result<std::vector<SampleLines>> read_all_cgats(const TextFile& file) {
+  const auto data = read_data(file);
+  if (!data) return data.error();
+  std::vector<SampleLines> out;
+  for (std::size_t row = 0; row < data->rows; ++row) {
+    auto samples = row_of(file, *data, row);
+    if (!samples) return samples.error();
+    out.push_back(*std::move(samples));
   }
   return out;
 }

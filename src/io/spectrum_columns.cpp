@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "src/base/errors.hpp"
+#include "src/base/text.hpp"
 #include "src/io/atomic_file.hpp"
 #include "src/io/spectrum_text.hpp"
 
@@ -138,6 +140,114 @@ Result<SampleLines> read_columns(const TextFile& file) {
                       file.path);
   }
   return out;
+}
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kSeparators), text.size()));
+  return text.substr(0, text.find_last_not_of(kSeparators) + 1);
+}
+
+/// A line "name,wavelength_nm,value"; names may hold spaces, so those do not separate.
+struct NamedSample {
+  std::string_view name;
+  double wavelength_nm = 0;
+  double value = 0;
+};
+
+std::optional<NamedSample> named_sample(std::string_view line) {
+  for (const char separator : {',', ';', '\t'}) {
+    if (line.find(separator) == std::string_view::npos) continue;
+    const auto fields = split(line, separator);
+    if (fields.size() != 3) return {};
+    const std::string_view name = trimmed(fields[0]);
+    const auto wavelength = number_in(trimmed(fields[1]));
+    const auto value = number_in(trimmed(fields[2]));
+    if (name.empty() || number_in(name) || !wavelength || !value) return {};
+    return NamedSample{name, *wavelength, *value};
+  }
+  return {};
+}
+
+/// Spectra side by side, or one below the other under their names; the first line of samples tells which.
+class SpectraReader {
+ public:
+  explicit SpectraReader(const TextFile& file) : file_(file) {}
+
+  Result<std::vector<SampleLines>> read() {
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) SPECTILE_TRY(line(file_.lines[i], i + 1));
+    if (spectra_.empty()) {
+      return make_error(ErrorCode::kBadFile,
+                        "{}: holds no sample, which is a line \"wavelength_nm,value,...\" or "
+                        "\"name,wavelength_nm,value\"",
+                        file_.path);
+    }
+    return std::move(spectra_);
+  }
+
+ private:
+  Result<void> line(std::string_view text, std::size_t number) {
+    std::string_view rest = text;
+    const std::string_view first = next_word(rest);
+    if (first.empty() || first.front() == '#') return {};
+    if (spectra_.empty() || named_) {
+      if (const auto sample = named_sample(text)) {
+        named_ = true;
+        const auto at = places_.try_emplace(sample->name, spectra_.size()).first->second;
+        return add(at, sample->wavelength_nm, sample->value, number);
+      }
+      if (named_)
+        return line_error(file_, number, quoted(text) + " is not a name, a wavelength in nm and a value");
+    }
+    const std::optional<double> wavelength = number_in(first);
+    if (!wavelength && spectra_.empty() && begins_like_a_word(first)) return {};
+    std::size_t values = 0;
+    for (std::string_view word = next_word(rest); wavelength && !word.empty(); word = next_word(rest)) {
+      const std::optional<double> value = number_in(word);
+      if (!value) return line_error(file_, number, quoted(word) + " is not a number");
+      if (columns_ > 0 && values == columns_) return wrong_count(number, "more");
+      SPECTILE_TRY(add(values, *wavelength, *value, number));
+      ++values;
+    }
+    if (values == 0) return line_error(file_, number, quoted(text) + " is not a wavelength in nm and values");
+    if (columns_ > 0 && values < columns_) return wrong_count(number, "fewer");
+    columns_ = values;
+    return {};
+  }
+
+  Error wrong_count(std::size_t number, const char* how) const {
+    return line_error(
+        file_, number,
+        fmt::format("has {} values than the first line of samples, which has {}", how, columns_));
+  }
+
+  Result<void> add(std::size_t at, double wavelength_nm, double value, std::size_t number) {
+    if (!std::isfinite(wavelength_nm) || !std::isfinite(value)) {
+      return line_error(file_, number, quoted(file_.lines[number - 1]) + " is not finite");
+    }
+    if (at >= kMostSpectra) {
+      return line_error(file_, number, fmt::format("holds more than {} spectra", kMostSpectra));
+    }
+    if (at == spectra_.size()) spectra_.emplace_back();
+    spectra_[at].wavelengths_nm.push_back(wavelength_nm);
+    spectra_[at].values.push_back(value);
+    spectra_[at].lines.push_back(number);
+    return {};
+  }
+
+  static constexpr std::size_t kMostSpectra = 100000;
+  const TextFile& file_;
+  std::vector<SampleLines> spectra_;
+  std::size_t columns_ = 0;  // of the first line of samples
+  bool named_ = false;
+  std::map<std::string_view, std::size_t> places_;
+};
+
+}  // namespace
+
+Result<std::vector<SampleLines>> read_all_columns(const TextFile& file) {
+  return SpectraReader(file).read();
 }
 
 }  // namespace spectile::io

@@ -1,4 +1,4 @@
-// load_spectrum, load_spectrum_csv, find_spectrum: spectra from text files.
+// load_spectrum, load_spectra, load_spectrum_csv, find_spectrum: spectra from text files.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -34,6 +34,13 @@ Result<void> check_samples(const io::TextFile& file, const io::SampleLines& samp
   return {};
 }
 
+Result<Spectrum> spectrum_of(const io::TextFile& file, const io::SampleLines& samples) {
+  SPECTILE_TRY(check_samples(file, samples));
+  auto spectrum = PiecewiseLinearSpectrum::from_samples(samples.wavelengths_nm, samples.values);
+  if (!spectrum) return spectrum.error();
+  return Spectrum(*std::move(spectrum));
+}
+
 }  // namespace
 
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
@@ -54,10 +61,22 @@ Result<Spectrum> load_spectrum(const std::string& path, std::size_t column) {
   }
   const auto samples = cgats ? io::read_cgats(*file, column) : io::read_columns(*file);
   if (!samples) return samples.error();
-  SPECTILE_TRY(check_samples(*file, *samples));
-  auto spectrum = PiecewiseLinearSpectrum::from_samples(samples->wavelengths_nm, samples->values);
-  if (!spectrum) return spectrum.error();
-  return Spectrum(*std::move(spectrum));
+  return spectrum_of(*file, *samples);
+}
+
+Result<std::vector<Spectrum>> load_spectra(const std::string& path) {
+  const auto file = io::read_text_file(path);
+  if (!file) return file.error();
+  const auto all = io::is_cgats(*file) ? io::read_all_cgats(*file) : io::read_all_columns(*file);
+  if (!all) return all.error();
+  std::vector<Spectrum> out;
+  out.reserve(all->size());
+  for (const io::SampleLines& samples : *all) {
+    auto spectrum = spectrum_of(*file, samples);
+    if (!spectrum) return spectrum.error();
+    out.push_back(*std::move(spectrum));
+  }
+  return out;
 }
 
 Result<Spectrum> find_spectrum(const std::string& name_or_path) {

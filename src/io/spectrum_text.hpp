@@ -41,6 +41,10 @@ struct SampleLines {
 /// Columns "wavelength_nm value"; see load_spectrum.
 Result<SampleLines> read_columns(const TextFile& file);
 
+/// The samples of every spectrum in a text of columns: lines "wavelength_nm value value ...", or lines
+/// "name,wavelength_nm,value" that are put together by name; see load_spectra.
+Result<std::vector<SampleLines>> read_all_columns(const TextFile& file);
+
 /// Whether a text is CGATS: its first word is SPECT, CMF or CGATS and something, or a line begins with
 /// SPECTRAL_BANDS or BEGIN_DATA.
 bool is_cgats(const TextFile& file);
@@ -48,5 +52,8 @@ bool is_cgats(const TextFile& file);
 /// Row `column` of CGATS's data; see load_spectrum. Errors: kBadFile; kBadArgument for a row that there is
 /// not.
 Result<SampleLines> read_cgats(const TextFile& file, std::size_t column);
+
+/// All rows of it. Errors: kBadFile.
+Result<std::vector<SampleLines>> read_all_cgats(const TextFile& file);
 
 }  // namespace spectile::io

@@ -1,6 +1,7 @@
 // upsample_image: an RGB image becomes a spectral one, line by line.
 #include <cstring>
 #include <spectile/image.hpp>
+#include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -11,6 +12,7 @@
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
 #include "src/io/rgb_source.hpp"
+#include "src/io/settings.hpp"
 #include "src/ops/method_rows.hpp"
 #include "src/ops/tiles.hpp"
 
@@ -144,7 +146,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const int threads = tiles::thread_count(options.threads);
   const auto upsampler = io::upsampler_for(options);
   if (!upsampler) return upsampler.error();
-  auto source = io::RgbSource::open(input, options.layer, threads);
+  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
   const auto rows = rows::SampledRows::over(*upsampler, upsampler->bands());
@@ -159,6 +161,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
   spec.text_attributes = io::method_attributes(*upsampler, options, coefficients);
   if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity);
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();

@@ -269,9 +269,9 @@ Result<VerifyReport> verify(const std::string& path, const MethodOptions& option
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
-  auto spectral = io::SpectralSource::open(path, std::nullopt, threads);
+  auto spectral = io::SpectralSource::open(path, std::nullopt, threads, options.region);
   if (spectral) return verify_spectral(**spectral, options, **kernels);
-  auto rgb = io::RgbSource::open(path, options.layer, threads);
+  auto rgb = io::RgbSource::open(path, options.layer, threads, options.region);
   if (!rgb) return rgb.error();
   return verify_rgb(**rgb, options, **kernels);
 }

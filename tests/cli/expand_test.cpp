@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "tests/cli/process.hpp"
 #include "tests/image/exr_files.hpp"
@@ -32,6 +33,17 @@ class ExpandTool : public testing::Test {
     EXPECT_FALSE(fs::exists(out_));
   }
 
+  /// Attributes but the settings, which say how each was made, and all samples.
+  static std::pair<std::map<std::string, std::string>, std::map<std::string, test::Plane>> without_settings(
+      const std::string& path) {
+    const test::Picture picture = test::read_picture(path);
+    std::map<std::string, std::string> attributes;
+    for (auto it = picture.header.begin(); it != picture.header.end(); ++it) {
+      attributes[it.name()] = test::attribute_bytes(it.attribute());
+    }
+    EXPECT_EQ(attributes.erase("spectileSettings"), 1U);
+    return {attributes, picture.planes};
+  }
   const test::TempFolder folder_;
   const std::string in_ = folder_ / "in.exr";
   const std::string compact_ = folder_ / "compact.exr";
@@ -53,7 +65,7 @@ TEST_F(ExpandTool, GivesTheFileThatUpsampleWrites) {
       const auto outcome = run_tool({"expand", compact_, "-o", out_, "--pixel", pixel, "--threads", "2"});
       ASSERT_EQ(outcome.exit, 0) << outcome;
       EXPECT_THAT(outcome.out, testing::HasSubstr("75 x 33, 60 bands"));
-      EXPECT_TRUE(test::file_bytes(out_) == test::file_bytes(folder_ / "direct.exr"))
+      EXPECT_TRUE(without_settings(out_) == without_settings(folder_ / "direct.exr"))
           << method << " " << pixel;
       EXPECT_LT(fs::file_size(compact_), fs::file_size(out_) / 3);
     }

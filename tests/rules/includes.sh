@@ -19,7 +19,7 @@ only_in 'OpenEXR|Imf|Imath' 'OpenEXR' 'src/io/'
 only_in 'libdeflate' 'libdeflate' 'src/io/zip_encoder\.cpp'
 only_in 'Eigen' 'Eigen' 'src/ops/(quadratic_program|plan_[a-z]+)\.[ch]pp'
 only_in 'CLI/' 'CLI11' 'src/cli/'
-only_in 'nlohmann' 'nlohmann-json' 'src/cli/'
+only_in 'nlohmann' 'nlohmann-json' 'src/cli/|src/io/plan_json\.cpp'
 only_in 'fmt/' 'fmt' 'src/'
 
 # --- rooms, from the ground up: each may include the rooms named -----------------------------------------------------
