@@ -78,6 +78,15 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"limited_pixels", r.limited_pixels},
           {"bytes_written", r.bytes_written},
           {"seconds", r.seconds},
+          {"skipped",
+           {{"masked_pixels", r.skipped.masked_pixels},
+            {"black_pixels", r.skipped.black_pixels},
+            {"constant_pixels", r.skipped.constant_pixels},
+            {"chunks", r.skipped.chunks},
+            {"chunks_reused", r.skipped.chunks_reused},
+            {"colors_looked_up", r.skipped.colors_looked_up},
+            {"colors_solved", r.skipped.colors_solved},
+            {"core_seconds_saved", r.skipped.core_seconds_saved}}},
           {"mpixel_per_s", static_cast<double>(r.pixels()) / r.seconds * 1e-6},
           {"notes", r.notes}};
 }
@@ -86,7 +95,17 @@ std::string plural(std::uint64_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-void print_report(const Job& job, const ImageReport& r) {
+void print_skipped(const SkipStats& s) {
+  fmt::print("  skipped: {} masked, {} black, {} in blocks of one colour\n", plural(s.masked_pixels, "pixel"),
+             s.black_pixels, s.constant_pixels);
+  fmt::print("  {} of {} used again\n", s.chunks_reused, plural(s.chunks, "chunk"));
+  if (s.colors_looked_up > 0) {
+    fmt::print("  {} looked up, {} of them solved\n", plural(s.colors_looked_up, "colour"), s.colors_solved);
+  }
+  fmt::print("  about {:.2f} s of one core saved\n", s.core_seconds_saved);
+}
+
+void print_report(const Job& job, const ImageReport& r, bool stats) {
   fmt::print("{} -> {}: {} x {}, {}, {}, {}, {:.2f} s\n", job.input, job.output, r.width, r.height,
              plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds),
              r.seconds);
@@ -106,6 +125,7 @@ void print_report(const Job& job, const ImageReport& r) {
                plural(r.limited_pixels, "pixel"));
   }
   for (const std::string& note : r.notes) fmt::print("  {}\n", note);
+  if (stats) print_skipped(r.skipped);
 }
 
 }  // namespace
@@ -235,7 +255,7 @@ int run_jobs(const std::vector<Job>& jobs, const Common& common, ImageOptions& o
       fmt::print("{}\n",
                  to_json(job, *report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     } else if (!common.quiet) {
-      print_report(job, *report);
+      print_report(job, *report, common.stats);
     }
   }
   return exit;

@@ -24,6 +24,7 @@ struct Common {
   std::string isa;
   bool json = false;
   bool quiet = false;
+  bool stats = false;  ///< whether the report says what was skipped
 };
 
 void add_common(CLI::App& command, Common& common);

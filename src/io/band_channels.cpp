@@ -57,20 +57,52 @@ Result<BandPacker::Work> BandPacker::work() const {
   auto block = FloatBuffer::create((rows_.count() + 2) * kLanesPerBlock);
   if (!block) return block.error();
   out.block = *std::move(block);
+  out.filler.resize(rows_.count());
   return out;
 }
 
 std::uint64_t BandPacker::line(Work& work, const LineCoefficients& of, std::size_t width,
                                const ExrWriter& writer, std::size_t first, std::byte* packed) const {
+  run(work, of, 0, width, writer, first, packed);
+  return limited(work, of, width);
+}
+
+void BandPacker::run(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n,
+                     const ExrWriter& writer, std::size_t first, std::byte* packed) const {
   const std::size_t sample_bytes = half_ ? 2 : 4;
-  for (std::size_t at = 0; at < width; at += segment_) {
+  for (const std::size_t end = at + n; at < end; at += segment_) {
     for (std::size_t b = 0; b < rows_.count(); ++b) {
       work.rows[b] = packed + writer.channel_offset(first + b) + at * sample_bytes;
     }
     const LineCoefficients segment = from(of, at);
     rows_.expand_rows(kernels_, segment.c, segment.scale, work.rows.data(), half_,
-                      std::min(segment_, width - at));
+                      std::min(segment_, end - at));
   }
+}
+
+void BandPacker::fill(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n,
+                      const ExrWriter& writer, std::size_t first, std::byte* packed) const {
+  const LineCoefficients segment = from(of, at);
+  std::array<std::uint32_t, 4> bits{};
+  for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint32_t>(segment.c[k][0]);
+  if (segment.scale != nullptr) bits[3] = std::bit_cast<std::uint32_t>(segment.scale[0]);
+  if (!work.has_filler || bits != work.filler_of) {
+    for (std::size_t b = 0; b < rows_.count(); ++b) work.rows[b] = &work.filler[b];
+    rows_.expand_rows(kernels_, segment.c, segment.scale, work.rows.data(), half_, 1);
+    work.filler_of = bits;
+    work.has_filler = true;
+  }
+  for (std::size_t b = 0; b < rows_.count(); ++b) {
+    std::byte* const row = packed + writer.channel_offset(first + b);
+    if (half_) {
+      std::fill_n(reinterpret_cast<std::uint16_t*>(row) + at, n, static_cast<std::uint16_t>(work.filler[b]));
+    } else {
+      std::fill_n(reinterpret_cast<std::uint32_t*>(row) + at, n, work.filler[b]);
+    }
+  }
+}
+
+std::uint64_t BandPacker::limited(Work& work, const LineCoefficients& of, std::size_t width) const {
   return half_ && may_exceed_half(of, width) ? count_limited(work, of, width) : 0;
 }
 

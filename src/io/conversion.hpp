@@ -13,28 +13,10 @@
 
 #include "kernels/abi.hpp"
 #include "src/io/exr_writer.hpp"
+#include "src/io/line_stats.hpp"
 #include "src/io/strips.hpp"
 
 namespace spectile::io {
-
-/// Pixels of one kind in a run of lines: how many, and where the first is.
-struct PixelCount {
-  std::uint64_t count = 0;
-  int first_x = -1;
-  int first_y = -1;
-  void add(std::uint64_t more, int x, int y);
-  void add(const PixelCount& later);
-};
-
-/// What a run of lines was found to hold.
-struct LineStats {
-  PixelCount nonfinite;
-  PixelCount negative;
-  PixelCount outside;  // colours that the method cannot make
-  std::uint64_t over_one = 0;
-  std::uint64_t limited = 0;
-  void add(const LineStats& later);
-};
 
 /// One job's own part of a conversion.
 class LineJob {
@@ -45,6 +27,9 @@ class LineJob {
   /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells
   /// which of the job's work spaces to use; calls with different slots run side by side.
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
+  /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are
+  /// encoded once, as far as they are remembered.
+  virtual bool repeats() const { return false; }
 };
 
 /// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstring>
 #include <numeric>
-#include <span>
 
 #include "src/base/errors.hpp"
 #include "src/io/attributes.hpp"
@@ -281,10 +280,13 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   });
 }
 
-Result<void> ExrWriter::write(std::size_t slot) {
-  const Encoder& encoder = *encoders_[slot];
-  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line,
-                                                     encoder.result.data(), encoder.result.size());
+std::span<const std::byte> ExrWriter::encoded(std::size_t slot) const {
+  return encoders_[slot]->result;
+}
+
+Result<void> ExrWriter::write(int chunk, std::span<const std::byte> encoded) {
+  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + chunk * lines_per_chunk_,
+                                                     encoded.data(), encoded.size());
   if (code != EXR_ERR_SUCCESS) return write_failure("write", code);
   return {};
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <spectile/image.hpp>
 #include <spectile/result.hpp>
 #include <string>
@@ -52,14 +53,18 @@ class ExrWriter {
   int height() const noexcept { return height_; }
   int lines_per_chunk() const noexcept { return lines_per_chunk_; }
   int chunks() const noexcept { return (height_ + lines_per_chunk_ - 1) / lines_per_chunk_; }
+  /// Whether chunks are not written as they are packed.
+  bool compresses() const noexcept { return compression_.kind != CompressionKind::kNone; }
   std::size_t line_bytes() const noexcept { return line_bytes_; }
   /// Byte offset of a channel within a packed line, by its place in the spec.
   std::size_t channel_offset(std::size_t channel) const { return offsets_[channel]; }
 
   /// Packs and compresses a chunk in a slot. May run beside encode() and write() of other slots.
   Result<void> encode(std::size_t slot, int chunk, const Pack& pack);
-  /// Writes what the slot holds; chunks must come in order.
-  Result<void> write(std::size_t slot);
+  /// What encode() left in the slot: a chunk as it is in the file.
+  std::span<const std::byte> encoded(std::size_t slot) const;
+  /// Writes an encoded chunk; chunks must come in order.
+  Result<void> write(int chunk, std::span<const std::byte> encoded);
   /// Completes the file and gives it its name.
   Result<void> commit();
   std::uint64_t bytes_written() const noexcept { return bytes_written_; }

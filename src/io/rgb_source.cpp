@@ -130,6 +130,7 @@ void RgbSource::choose_passing(const std::string& prefix) {
                                    it.channel().xSampling, it.channel().ySampling));
       continue;
     }
+    if (plain == "A") alpha_ = planes_.size();
     planes_.push_back({name, it.channel().type});
     file_names_.push_back(name);
   }

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfRgbaFile.h>
 
 #include <memory>
+#include <optional>
 #include <spectile/result.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class RgbSource {
   int height() const { return height_of(header()); }
   const RgbSpace& color_space() const noexcept { return space_; }
   const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
+  /// The plane of the colours' own alpha, where they have one.
+  std::optional<std::size_t> alpha() const noexcept { return alpha_; }
   /// What cannot pass through, in words.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
@@ -53,6 +56,7 @@ class RgbSource {
   bool with_chroma_ = false;
   std::vector<PlaneSpec> planes_;
   std::vector<std::string> file_names_;
+  std::optional<std::size_t> alpha_;
   RgbSpace space_;
   std::vector<std::string> notes_;
 };

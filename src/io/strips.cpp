@@ -36,6 +36,7 @@ Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, 
     if (!buffer) return buffer.error();
     strip->planes.push_back(*std::move(buffer));
     strip->stride_bytes.push_back(stride);
+    strip->row_bytes.push_back(static_cast<std::size_t>(width) * plane.sample_bytes());
   }
   return strip;
 }

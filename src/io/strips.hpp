@@ -27,6 +27,7 @@ struct Strip {
   int lines = 0;
   std::vector<FloatBuffer> planes;
   std::vector<std::size_t> stride_bytes;
+  std::vector<std::size_t> row_bytes;  ///< of a line's pixels, without what pads it
 
   bool holds(int first, int count) const {
     return first >= first_line && first + count <= first_line + lines;
