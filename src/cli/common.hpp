@@ -40,7 +40,7 @@ struct WriteOptions {
   std::string pixel;
   std::string compression;
   std::string nonfinite = "stop";
-  std::size_t tile = 65536;
+  std::size_t lanes = 65536;
 };
 
 void add_write_options(CLI::App& command, WriteOptions& options, const char* pixel_default);

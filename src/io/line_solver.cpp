@@ -103,7 +103,9 @@ void LineSolver::look_up(Work& work, const ColorLine& rgb, int line, LineStats& 
   const auto start = Clock::now();
   rows::ColorTable::clear(batch);
   const std::uint64_t looked_up = batch.looked_up;
+  const double solved_before = batch.solving_seconds;
   const std::uint64_t solved = batch.solved;
+  const std::uint64_t lanes_solved = batch.lanes_solved;
   const auto lanes = [](const ColorRun& run) {
     return run.kind == ColorRun::Kind::kConstant ? std::size_t{1} : run.pixels;
   };
@@ -112,9 +114,8 @@ void LineSolver::look_up(Work& work, const ColorLine& rgb, int line, LineStats& 
     const float* const from[3] = {rgb.rows[0] + run.first, rgb.rows[1] + run.first, rgb.rows[2] + run.first};
     table_->add(batch, from, lanes(run));
   }
-  const auto solving = Clock::now();
   table_->solve(batch);
-  const double solving_seconds = seconds_since(solving);
+  const double solving_seconds = batch.solving_seconds - solved_before;
   std::size_t lane = 0;
   for (const ColorRun& run : work.runs) {
     if (run.kind == ColorRun::Kind::kBlack) continue;
@@ -130,6 +131,7 @@ void LineSolver::look_up(Work& work, const ColorLine& rgb, int line, LineStats& 
   SkipCosts& costs = stats.costs;
   costs.colors_looked_up += batch.looked_up - looked_up;
   costs.colors_solved += batch.solved - solved;
+  costs.lanes_solved += batch.lanes_solved - lanes_solved;
   costs.solving_seconds += solving_seconds;
   costs.lookup_seconds += seconds_since(start) - solving_seconds;
 }

@@ -10,6 +10,7 @@ void SkipCosts::add(const SkipCosts& later) {
   filling_seconds += later.filling_seconds;
   colors_looked_up += later.colors_looked_up;
   colors_solved += later.colors_solved;
+  lanes_solved += later.lanes_solved;
   lookup_seconds += later.lookup_seconds;
   solving_seconds += later.solving_seconds;
   chunks += later.chunks;
@@ -69,7 +70,7 @@ SkipStats skip_stats(const LineStats& stats) {
       static_cast<double>(costs.filled_pixels) * each(costs.computing_seconds, costs.computed_pixels) -
       costs.filling_seconds;
   const double found = static_cast<double>(costs.colors_looked_up - costs.colors_solved) *
-                           each(costs.solving_seconds, costs.colors_solved) -
+                           each(costs.solving_seconds, costs.lanes_solved) -
                        costs.lookup_seconds;
   out.core_seconds_saved = costs.reused_seconds + (costs.computed_pixels > 0 ? filled : 0) +
                            (costs.colors_looked_up > 0 ? found : 0);

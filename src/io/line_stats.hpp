@@ -14,7 +14,8 @@ struct SkipCosts {
   double filling_seconds = 0;
   std::uint64_t colors_looked_up = 0;
   std::uint64_t colors_solved = 0;
-  double lookup_seconds = 0;  // without solving
+  std::uint64_t lanes_solved = 0;  // with those that fill up blocks
+  double lookup_seconds = 0;       // without solving
   double solving_seconds = 0;
   std::uint64_t chunks = 0;
   std::uint64_t chunks_reused = 0;

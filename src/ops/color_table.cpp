@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cstring>
 #include <thread>
 
@@ -138,12 +139,15 @@ void ColorTable::solve(Batch& batch) {
   batch.solved += n;
   if (n == 0) return;
   const std::size_t padded = blocks_for(n) * kLanesPerBlock;
+  batch.lanes_solved += padded;
   for (float* const row : batch.rgb_) std::fill(row + n, row + padded, 0.0F);
   const bool scaled = has_scale(upsampler_);
+  const auto start = std::chrono::steady_clock::now();
   limit_gamut(kernels_, upsampler_, batch.rgb_, policy_, n, batch.outside_.data());
   rows::solve(kernels_, upsampler_, batch.rgb_,
               {{batch.c_[0], batch.c_[1], batch.c_[2]}, scaled ? batch.c_[3] : nullptr},
               batch.unsolved_.data(), padded);
+  batch.solving_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < n; ++i) {
     if (batch.claimed_[i] < 0) continue;
     Entry& entry = entries_[static_cast<std::size_t>(batch.claimed_[i])];

@@ -24,8 +24,11 @@ class ColorTable {
     /// For up to `lanes` lanes between begin() and finish(). Errors: kOutOfMemory.
     static Result<Batch> create(std::size_t lanes);
 
-    std::uint64_t looked_up = 0;  ///< lanes
-    std::uint64_t solved = 0;     ///< colours
+    std::uint64_t looked_up = 0;     ///< lanes
+    std::uint64_t solved = 0;        ///< colours
+    std::uint64_t lanes_solved = 0;  ///< with those that fill up blocks
+
+    double solving_seconds = 0;  ///< without finding and keeping
 
    private:
     friend class ColorTable;
