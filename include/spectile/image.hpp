@@ -79,6 +79,9 @@ struct ImageOptions {
   /// upsample_image: whether what is black, masked, constant or repeated is found and not computed again. The
   /// file is the same to the bit without; SkipStats says what it was good for.
   bool skip = true;
+  /// Conversions of an image to another write tiles of this width and height, 1 to 4096, where it is given,
+  /// and scanlines where not.
+  std::optional<std::array<int, 2>> tile;
   ProgressFunction progress;
 };
 
@@ -204,7 +207,8 @@ Result<ImageReport> project_image(const std::string& input, const std::string& o
 
 /// Turns a texture into its colour under another light, as if it were upsampled and projected under that; its
 /// alpha and other channels pass through. Direct ways give the bits of the long one for the sigmoid, and come
-/// within Relighter::bound() of it for mixtures of bases. Errors: kBadArgument too, for light as quantity.
+/// within Relighter::bound() of it for mixtures of bases. Colours of alpha 0 are kept (Masking::kNone).
+/// Errors: kBadArgument too, for light as quantity.
 Result<ImageReport> relight_image(const std::string& input, const std::string& output,
                                   const RelightImageOptions& options);
 

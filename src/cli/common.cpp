@@ -183,6 +183,12 @@ void add_write_options(CLI::App& command, WriteOptions& options, const char* pix
                   "Pixels with NaN or infinity: stop (no output is written) or zero (they become black)")
       ->check(CLI::IsMember({"stop", "zero"}))
       ->capture_default_str();
+  command
+      .add_option("--tile", options.tile,
+                  "Width and height of tiles, 1 to 4096 each, for renderers that read parts of images; "
+                  "scanlines by default")
+      ->expected(2)
+      ->check(CLI::Range(1, 4096));
   command.add_option("--lanes", options.lanes, "Most pixels a kernel call works on; changes speed only")
       ->check(CLI::Range(std::size_t{64}, std::size_t{1} << 30))
       ->capture_default_str();
@@ -191,6 +197,7 @@ void add_write_options(CLI::App& command, WriteOptions& options, const char* pix
 int apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out) {
   out.threads = common.threads;
   out.tile_lanes = options.lanes;
+  if (!options.tile.empty()) out.tile = {options.tile[0], options.tile[1]};
   if (!options.pixel.empty()) out.pixel = options.pixel == "float" ? PixelType::kFloat : PixelType::kHalf;
   out.nonfinite = options.nonfinite == "zero" ? NonFinite::kZero : NonFinite::kStop;
   if (!options.compression.empty()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "src/io/spectral_layout.hpp"
@@ -14,6 +15,13 @@ namespace {
 /// The coefficients of `of` from pixel `at` on.
 LineCoefficients from(const LineCoefficients& of, std::size_t at) {
   return {{of.c[0] + at, of.c[1] + at, of.c[2] + at}, of.scale == nullptr ? nullptr : of.scale + at};
+}
+
+/// Packed rows of floats may lie at any even address.
+template <class Sample>
+void fill_row(std::byte* row, std::size_t at, std::size_t n, Sample sample) {
+  std::byte* const to = row + at * sizeof(Sample);
+  for (std::size_t i = 0; i < n; ++i) std::memcpy(to + i * sizeof(Sample), &sample, sizeof(Sample));
 }
 
 }  // namespace
@@ -63,16 +71,17 @@ Result<BandPacker::Work> BandPacker::work() const {
 
 std::uint64_t BandPacker::line(Work& work, const LineCoefficients& of, std::size_t width,
                                const ExrWriter& writer, std::size_t first, std::byte* packed) const {
-  run(work, of, 0, width, writer, first, packed);
+  run(work, of, {0, width, width}, writer, first, packed);
   return limited(work, of, width);
 }
 
-void BandPacker::run(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n,
-                     const ExrWriter& writer, std::size_t first, std::byte* packed) const {
+void BandPacker::run(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+                     std::size_t first, std::byte* packed) const {
   const std::size_t sample_bytes = half_ ? 2 : 4;
-  for (const std::size_t end = at + n; at < end; at += segment_) {
+  const std::size_t end = part.at + part.pixels;
+  for (std::size_t at = part.at; at < end; at += segment_) {
     for (std::size_t b = 0; b < rows_.count(); ++b) {
-      work.rows[b] = packed + writer.channel_offset(first + b) + at * sample_bytes;
+      work.rows[b] = packed + writer.channel_offset(first + b, part.width) + at * sample_bytes;
     }
     const LineCoefficients segment = from(of, at);
     rows_.expand_rows(kernels_, segment.c, segment.scale, work.rows.data(), half_,
@@ -80,9 +89,9 @@ void BandPacker::run(Work& work, const LineCoefficients& of, std::size_t at, std
   }
 }
 
-void BandPacker::fill(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n,
-                      const ExrWriter& writer, std::size_t first, std::byte* packed) const {
-  const LineCoefficients segment = from(of, at);
+void BandPacker::fill(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+                      std::size_t first, std::byte* packed) const {
+  const LineCoefficients segment = from(of, part.at);
   std::array<std::uint32_t, 4> bits{};
   for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint32_t>(segment.c[k][0]);
   if (segment.scale != nullptr) bits[3] = std::bit_cast<std::uint32_t>(segment.scale[0]);
@@ -93,11 +102,11 @@ void BandPacker::fill(Work& work, const LineCoefficients& of, std::size_t at, st
     work.has_filler = true;
   }
   for (std::size_t b = 0; b < rows_.count(); ++b) {
-    std::byte* const row = packed + writer.channel_offset(first + b);
+    std::byte* const row = packed + writer.channel_offset(first + b, part.width);
     if (half_) {
-      std::fill_n(reinterpret_cast<std::uint16_t*>(row) + at, n, static_cast<std::uint16_t>(work.filler[b]));
+      fill_row(row, part.at, part.pixels, static_cast<std::uint16_t>(work.filler[b]));
     } else {
-      std::fill_n(reinterpret_cast<std::uint32_t*>(row) + at, n, work.filler[b]);
+      fill_row(row, part.at, part.pixels, work.filler[b]);
     }
   }
 }

@@ -56,11 +56,17 @@ class BandPacker {
   std::uint64_t line(Work& work, const LineCoefficients& of, std::size_t width, const ExrWriter& writer,
                      std::size_t first, std::byte* packed) const;
 
-  /// The same for a part of a line: `n` pixels from pixel `at`, a multiple of 64, on; none is counted.
-  void run(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n, const ExrWriter& writer,
+  /// `pixels` pixels from pixel `at`, a multiple of 64, on, of a line of `width`.
+  struct Part {
+    std::size_t at = 0;
+    std::size_t pixels = 0;
+    std::size_t width = 0;
+  };
+  /// The same for a part of a line; none is counted.
+  void run(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
            std::size_t first, std::byte* packed) const;
   /// The same bytes for pixels that all have the coefficients of the first.
-  void fill(Work& work, const LineCoefficients& of, std::size_t at, std::size_t n, const ExrWriter& writer,
+  void fill(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
             std::size_t first, std::byte* packed) const;
   /// How many pixels of a line have a sample that was limited.
   std::uint64_t limited(Work& work, const LineCoefficients& of, std::size_t width) const;

@@ -9,12 +9,14 @@
 namespace spectile::io {
 namespace {
 
-/// Calls visit(bytes) for each row of the strip's lines. False from it ends the visit.
+/// Calls visit(bytes) for each row of a region of the strip. False from it ends the visit.
 template <class Visit>
-bool each_row(const Strip& strip, int first_line, int lines, Visit visit) {
-  for (int i = 0; i < lines; ++i) {
+bool each_row(const Strip& strip, const Region& region, Visit visit) {
+  for (int line = region.y; line < region.y + region.height; ++line) {
     for (std::size_t plane = 0; plane < strip.planes.size(); ++plane) {
-      if (!visit(std::span(strip.row(plane, first_line + i), strip.row_bytes[plane]))) return false;
+      const std::size_t bytes = strip.sample_bytes(plane);
+      const std::byte* const row = strip.row(plane, line) + static_cast<std::size_t>(region.x) * bytes;
+      if (!visit(std::span(row, static_cast<std::size_t>(region.width) * bytes))) return false;
     }
   }
   return true;
@@ -48,9 +50,10 @@ class Hash {
   std::uint64_t state_[4] = {1, 2, 3, 4};
 };
 
-bool equals(const KnownChunk& chunk, const Strip& strip, int first_line, int lines) {
+bool equals(const KnownChunk& chunk, const Strip& strip, const Region& region) {
+  if (chunk.region.width != region.width || chunk.region.height != region.height) return false;
   std::size_t at = 0;
-  const bool same = each_row(strip, first_line, lines, [&](std::span<const std::byte> row) {
+  const bool same = each_row(strip, region, [&](std::span<const std::byte> row) {
     if (chunk.input.size() - at < row.size()) return false;
     if (std::memcmp(chunk.input.data() + at, row.data(), row.size()) != 0) return false;
     at += row.size();
@@ -61,27 +64,28 @@ bool equals(const KnownChunk& chunk, const Strip& strip, int first_line, int lin
 
 }  // namespace
 
-ChunkCache::Found ChunkCache::find(const Strip& strip, int first_line, int lines) {
+ChunkCache::Found ChunkCache::find(const Strip& strip, const Region& region) {
   std::size_t size = 0;
-  for (const std::size_t bytes : strip.row_bytes) size += bytes * static_cast<std::size_t>(lines);
+  for (std::size_t plane = 0; plane < strip.planes.size(); ++plane) size += strip.sample_bytes(plane);
+  size *= static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   if (size == 0 || size > most_bytes_ / 4) return {};
   Hash hash;
-  each_row(strip, first_line, lines, [&](std::span<const std::byte> row) {
+  each_row(strip, region, [&](std::span<const std::byte> row) {
     hash.add(row);
     return true;
   });
   const std::scoped_lock lock(mutex_);
   const auto [begin, end] = by_hash_.equal_range(hash.value());
   for (auto it = begin; it != end; ++it) {
-    if (!equals(**it->second, strip, first_line, lines)) continue;
+    if (!equals(**it->second, strip, region)) continue;
     order_.splice(order_.begin(), order_, it->second);
     return {order_.front(), true};
   }
   auto chunk = std::make_shared<KnownChunk>();
   chunk->hash = hash.value();
-  chunk->first_line = first_line;
+  chunk->region = region;
   chunk->input.reserve(size);
-  each_row(strip, first_line, lines, [&](std::span<const std::byte> row) {
+  each_row(strip, region, [&](std::span<const std::byte> row) {
     chunk->input.insert(chunk->input.end(), row.begin(), row.end());
     return true;
   });

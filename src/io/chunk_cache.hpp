@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "src/io/exr_writer.hpp"
 #include "src/io/line_stats.hpp"
 #include "src/io/strips.hpp"
 
@@ -19,7 +20,7 @@ namespace spectile::io {
 struct KnownChunk {
   std::vector<std::byte> input;
   std::uint64_t hash = 0;
-  int first_line = 0;
+  Region region;
   std::vector<std::byte> output;
   LineStats stats;
   double seconds = 0;  ///< that it took
@@ -37,7 +38,7 @@ class ChunkCache {
     bool known = false;                 ///< whether it was there before
   };
   /// The chunk made of the same bytes, or a new one. Calls come one at a time, in the order of the lines.
-  Found find(const Strip& strip, int first_line, int lines);
+  Found find(const Strip& strip, const Region& region);
 
   /// Completes a chunk that was new. May run beside every other call.
   void complete(KnownChunk& chunk, std::span<const std::byte> output, const LineStats& stats, double seconds);

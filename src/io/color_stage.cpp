@@ -22,9 +22,10 @@ ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, cons
 }
 
 float ColorStage::line(const Strip& strip, int line, const ColorLine& color, LineStats& stats) const {
+  const auto width = static_cast<std::size_t>(strip.width);
   load(strip, line, color);
-  const Settled settled = settle(line, color, stats);
-  if (settled.may_be_outside) limit(line, color, stats);
+  const Settled settled = settle(line, color, width, stats);
+  if (settled.may_be_outside) limit(line, color, width, stats);
   return settled.largest;
 }
 
@@ -32,9 +33,9 @@ void ColorStage::load(const Strip& strip, int line, const ColorLine& color) cons
   source_.float_rows(kernels_, strip, line, color.rows);
 }
 
-ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, LineStats& stats) const {
+ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::size_t width,
+                                       LineStats& stats) const {
   float* const* rows = color.rows;
-  const auto width = static_cast<std::size_t>(source_.width());
   const float* const rgb[3] = {rows[0], rows[1], rows[2]};
   settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
   LineStats own;
@@ -52,8 +53,7 @@ ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, LineSta
           own.negative.count > 0 || (bounded && own.over_one > 0) || rows::misses_inside(upsampler_)};
 }
 
-void ColorStage::limit(int line, const ColorLine& color, LineStats& stats) const {
-  const auto width = static_cast<std::size_t>(source_.width());
+void ColorStage::limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
   const GamutReport found = rows::limit_gamut(kernels_, upsampler_, color.rows, limiting(), width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
 }

@@ -20,7 +20,8 @@ class ColorStage {
   ColorStage(const RgbSource& source, const Upsampler& upsampler, const MethodOptions& options,
              const kernels::KernelTable& kernels);
 
-  /// Makes a line, in the three steps below. Returns the largest magnitude of a component.
+  /// Makes a line, in the three steps below; `color` has the width of the strip's lines. Returns the largest
+  /// magnitude of a component.
   float line(const Strip& strip, int line, const ColorLine& color, LineStats& stats) const;
 
   /// A line's samples as floats.
@@ -31,9 +32,9 @@ class ColorStage {
     bool may_be_outside = false;
   };
   /// What is not finite, the range, and the matrix to the method's RGB.
-  Settled settle(int line, const ColorLine& color, LineStats& stats) const;
+  Settled settle(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
   /// Colours of the method's RGB that it cannot make, of the whole line.
-  void limit(int line, const ColorLine& color, LineStats& stats) const;
+  void limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
 
   /// The space that the input's RGB is taken for.
   const RgbSpace& space() const noexcept { return space_; }

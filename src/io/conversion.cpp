@@ -26,6 +26,7 @@ Result<std::shared_ptr<Strip>> MemoryJob::read(int first_line, int lines) {
   auto strip = std::make_shared<Strip>();
   strip->first_line = first_line;
   strip->lines = lines;
+  strip->width = writer_->width();
   return strip;
 }
 
@@ -84,11 +85,10 @@ class Run {
  private:
   bool produce(Slot& slot) {
     if (failed_ || next_chunk_ >= writer_.chunks()) return false;
-    const int first = next_chunk_ * writer_.lines_per_chunk();
-    const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
-    if (!strip_ || !strip_->holds(first, lines)) {
+    const Region region = writer_.region(next_chunk_);
+    if (!strip_ || !strip_->holds(region.y, region.height)) {
       strip_.reset();
-      auto strip = next_strip(first);
+      auto strip = next_strip(region.y);
       if (!strip) return fail(strip.error());
       strip_ = *std::move(strip);
     }
@@ -98,12 +98,12 @@ class Run {
     slot.known.reset();
     slot.reused = false;
     // Here, where chunks come in order, so that which are reused depends on no thread.
-    if (caches_) look_up(slot, first, lines);
+    if (caches_) look_up(slot, region);
     return true;
   }
 
-  void look_up(Slot& slot, int first, int lines) {
-    auto found = cache_.find(*slot.strip, first, lines);
+  void look_up(Slot& slot, const Region& region) {
+    auto found = cache_.find(*slot.strip, region);
     slot.known = std::move(found.chunk);
     slot.reused = found.known;
   }
@@ -127,19 +127,31 @@ class Run {
     if (failed_ || slot.reused) return;
     const auto start = std::chrono::steady_clock::now();
     if (counts_) slot.stats.costs.chunks = 1;
+    const Region region = writer_.region(slot.chunk);
+    if (region.width < slot.strip->width) {
+      // A tile is to its job an image of its own.
+      auto tile = cut_strip(*slot.strip, region.x, region.width, region.y, region.height);
+      if (!tile) {
+        fail(tile.error());
+        return;
+      }
+      slot.strip = *std::move(tile);
+    }
     if (stopped_) {
-      const int first = slot.chunk * writer_.lines_per_chunk();
-      const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
-      for (int i = 0; i < lines; ++i) job_.line(index, *slot.strip, first + i, nullptr, slot.stats);
+      for (int i = 0; i < region.height; ++i) {
+        job_.line(index, *slot.strip, region.y + i, nullptr, slot.stats);
+      }
+      slot.stats = slot.stats.moved(region.x, 0);
       if (slot.known) slot.known->stats = slot.stats;
       return;
     }
-    const ExrWriter::Pack pack = [&](int first, int lines, std::byte* packed) {
-      for (int i = 0; i < lines; ++i, packed += writer_.line_bytes()) {
-        job_.line(index, *slot.strip, first + i, packed, slot.stats);
+    const ExrWriter::Pack pack = [&](const Region& to, std::byte* packed) {
+      for (int i = 0; i < to.height; ++i, packed += writer_.line_bytes(to.width)) {
+        job_.line(index, *slot.strip, to.y + i, packed, slot.stats);
       }
     };
     if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
+    slot.stats = slot.stats.moved(region.x, 0);
     slot.encoded = true;
     if (slot.known && !failed_) {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -163,10 +175,10 @@ class Run {
       }
     }
     slot.known.reset();
-    const int done = std::min((slot.chunk + 1) * writer_.lines_per_chunk(), writer_.height());
-    const auto width = static_cast<std::uint64_t>(writer_.width());
-    const Progress progress = {static_cast<std::uint64_t>(done) * width,
-                               static_cast<std::uint64_t>(writer_.height()) * width};
+    const Region region = writer_.region(slot.chunk);
+    done_ += static_cast<std::uint64_t>(region.width) * static_cast<std::uint64_t>(region.height);
+    const Progress progress = {
+        done_, static_cast<std::uint64_t>(writer_.width()) * static_cast<std::uint64_t>(writer_.height())};
     if (options_.progress && !options_.progress(progress)) {
       fail(make_error(ErrorCode::kCancelled, "stopped on request"));
     }
@@ -175,7 +187,9 @@ class Run {
   /// Chunks are consumed in order, so the one that was made of the same input is there.
   void reuse(Slot& slot) {
     const KnownChunk& known = *slot.known;
-    slot.stats = known.stats.moved(slot.chunk * writer_.lines_per_chunk() - known.first_line);
+    const Region region = writer_.region(slot.chunk);
+    slot.stats = known.stats.moved(region.x - known.region.x, region.y - known.region.y);
+    slot.stats.costs = {};
     slot.stats.costs.chunks = slot.stats.costs.chunks_reused = 1;
     slot.stats.costs.reused_seconds = known.seconds;
     slot.encoded = known.encoded;
@@ -201,6 +215,7 @@ class Run {
   bool read_ahead_ = false;
   std::future<Result<std::shared_ptr<Strip>>> ahead_;  // its destructor waits for the reading to end
   int next_chunk_ = 0;
+  std::uint64_t done_ = 0;  // pixels
   LineStats total_;
   std::atomic<bool> failed_ = false;
   std::atomic<bool> stopped_ = false;

@@ -24,7 +24,8 @@ class LineJob {
   virtual ~LineJob() = default;
   /// Reads lines into a strip; in order, one call at a time.
   virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
-  /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells
+  /// Makes one line of a strip, which may be a tile and have less pixels a line than the image: with
+  /// `packed`, the whole output line; without, only what `stats` needs. `slot` tells
   /// which of the job's work spaces to use; calls with different slots run side by side.
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
   /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are

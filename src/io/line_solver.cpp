@@ -56,10 +56,10 @@ LineCoefficients LineSolver::line(Work& work, const ColorLine& rgb, std::size_t 
                                   bool may_be_outside, LineStats& stats) const {
   if (!skip_) {
     work.runs = {{ColorRun::Kind::kComputed, 0, width}};
-    whole(work, rgb, line, may_be_outside, stats);
+    whole(work, rgb, width, line, may_be_outside, stats);
   } else {
     // Methods whose coefficients are the RGB limit a line quicker than its colours can be looked up.
-    if (mixes_ && may_be_outside) stage_.limit(line, rgb, stats);
+    if (mixes_ && may_be_outside) stage_.limit(line, rgb, width, stats);
     const FoundRuns found = find_runs(rgb.rows, width, work.runs);
     stats.black += found.black;
     stats.constant += found.constant;
@@ -76,9 +76,9 @@ rows::Coefficients LineSolver::at(Work& work, std::size_t first) const {
           rows::has_scale(upsampler_) ? work.scale.data() + first : nullptr};
 }
 
-void LineSolver::whole(Work& work, const ColorLine& rgb, int line, bool may_be_outside,
+void LineSolver::whole(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
                        LineStats& stats) const {
-  if (may_be_outside) stage_.limit(line, rgb, stats);
+  if (may_be_outside) stage_.limit(line, rgb, width, stats);
   if (!mixes_) rows::solve(kernels_, upsampler_, rgb.rows, at(work, 0), work.unsolved.data(), rgb.padded);
 }
 

@@ -38,7 +38,8 @@ class LineSolver {
                         LineStats& stats) const;
 
  private:
-  void whole(Work& work, const ColorLine& rgb, int line, bool may_be_outside, LineStats& stats) const;
+  void whole(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
+             LineStats& stats) const;
   void by_runs(Work& work, const ColorLine& rgb, std::size_t width, int line, LineStats& stats) const;
   void look_up(Work& work, const ColorLine& rgb, int line, LineStats& stats) const;
   void solve_run(Work& work, const ColorLine& rgb, const ColorRun& run, int line, LineStats& stats) const;

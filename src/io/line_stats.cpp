@@ -19,7 +19,9 @@ void SkipCosts::add(const SkipCosts& later) {
 }
 
 void PixelCount::add(std::uint64_t more, int x, int y) {
-  if (count == 0 && more > 0) {
+  if (more == 0) return;
+  // Tiles do not come in the order of their pixels.
+  if (count == 0 || y < first_y || (y == first_y && x < first_x)) {
     first_x = x;
     first_y = y;
   }
@@ -43,11 +45,12 @@ void LineStats::add(const LineStats& later) {
   costs.add(later.costs);
 }
 
-LineStats LineStats::moved(int lines) const {
+LineStats LineStats::moved(int right, int down) const {
   LineStats out = *this;
-  out.costs = {};
   for (PixelCount* const found : {&out.nonfinite, &out.negative, &out.outside}) {
-    if (found->count > 0) found->first_y += lines;
+    if (found->count == 0) continue;
+    found->first_x += right;
+    found->first_y += down;
   }
   return out;
 }

@@ -45,8 +45,8 @@ struct LineStats {
   std::uint64_t constant = 0;        // in whole blocks of one colour, not black
   SkipCosts costs;
   void add(const LineStats& later);
-  /// The same for lines with the same samples, `lines` further down, that cost nothing.
-  LineStats moved(int lines) const;
+  /// The same of pixels elsewhere.
+  LineStats moved(int right, int down) const;
 };
 
 /// The report of what was not computed.

@@ -26,7 +26,6 @@ std::uint64_t zeros(const std::byte* row, Sample zero, std::uint8_t* masked, std
 
 Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const RgbSource& source, int threads) {
   PixelMask mask;
-  mask.width_ = static_cast<std::size_t>(source.width());
   const bool from_file = options.masking == Masking::kFile;
   if (from_file == options.mask.empty()) {
     return from_file ? make_error(ErrorCode::kBadArgument, "no file to take the mask from")
@@ -74,7 +73,7 @@ Result<void> PixelMask::read(Strip& strip) {
   if (!file_) return {};
   // Every type that a channel may have comes as float.
   const std::vector<PlaneSpec> wanted = {{channel_, type_}};
-  auto own = make_strip(wanted, static_cast<int>(width_), strip.first_line, strip.lines);
+  auto own = make_strip(wanted, strip.width, strip.first_line, strip.lines);
   if (!own) return own.error();
   SPECTILE_TRY(fill_strip(*file_, part_, wanted, **own));
   strip.planes.push_back(std::move((*own)->planes[0]));
@@ -86,13 +85,14 @@ Result<void> PixelMask::read(Strip& strip) {
 std::uint64_t PixelMask::line(const Strip& strip, int line, std::uint8_t* masked) const {
   if (!plane_) return 0;
   const std::byte* const row = strip.row(*plane_, line);
+  const auto width = static_cast<std::size_t>(strip.width);
   switch (type_) {
     case Imf::HALF:
-      return zeros<std::uint16_t>(row, 0x7FFF, masked, width_);
+      return zeros<std::uint16_t>(row, 0x7FFF, masked, width);
     case Imf::FLOAT:
-      return zeros<std::uint32_t>(row, 0x7FFFFFFF, masked, width_);
+      return zeros<std::uint32_t>(row, 0x7FFFFFFF, masked, width);
     default:
-      return zeros<std::uint32_t>(row, 0xFFFFFFFF, masked, width_);
+      return zeros<std::uint32_t>(row, 0xFFFFFFFF, masked, width);
   }
 }
 

@@ -31,7 +31,6 @@ class PixelMask {
 
   std::optional<std::size_t> plane_;  // of strips; none where no pixel is masked
   Imf::PixelType type_ = Imf::FLOAT;
-  std::size_t width_ = 0;
   std::unique_ptr<ExrInput> file_;
   int part_ = 0;
   std::string channel_;

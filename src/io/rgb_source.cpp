@@ -180,7 +180,7 @@ Result<void> RgbSource::read_chroma(Strip& strip) {
 
 void RgbSource::float_rows(const kernels::KernelTable& kernels, const Strip& strip, int line,
                            float* const rgb[3]) const {
-  const auto w = static_cast<std::size_t>(width());
+  const auto w = static_cast<std::size_t>(strip.width);
   const std::size_t padded = blocks_for(w) * kLanesPerBlock;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::byte* row = strip.row(k, line);

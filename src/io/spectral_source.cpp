@@ -97,7 +97,7 @@ Result<std::shared_ptr<Strip>> SpectralSource::read(int first_line, int lines) {
 
 void SpectralSource::block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
                            float* block) const {
-  const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(width()) - x);
+  const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(strip.width) - x);
   for (std::size_t band = 0; band < bands_.count(); ++band, block += kLanesPerBlock) {
     const std::byte* row = strip.row(band, line);
     if (planes_[band].type == Imf::HALF) {

@@ -92,12 +92,13 @@ class UpsampleJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(source_.width());
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.rgb.set_width(width);
     stage_.load(strip, line, work.rgb);
     blacken(strip, line, work, stats);
-    const io::ColorStage::Settled settled = stage_.settle(line, work.rgb, stats);
+    const io::ColorStage::Settled settled = stage_.settle(line, work.rgb, width, stats);
     if (packed == nullptr) {
-      if (settled.may_be_outside) stage_.limit(line, work.rgb, stats);
+      if (settled.may_be_outside) stage_.limit(line, work.rgb, width, stats);
       return;
     }
     pass_through(strip, line, packed);
@@ -120,7 +121,7 @@ class UpsampleJob : public io::LineJob {
     const std::uint64_t count = mask_.line(strip, line, work.masked.data());
     if (count == 0) return;
     stats.masked += count;
-    for (std::size_t x = 0; x < work.masked.size(); ++x) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(strip.width); ++x) {
       float* const rgb[3] = {work.rgb.rows[0] + x, work.rgb.rows[1] + x, work.rgb.rows[2] + x};
       if (work.masked[x] == 0) continue;
       // Not black, or not a number.
@@ -136,9 +137,9 @@ class UpsampleJob : public io::LineJob {
     for (const io::ColorRun& run : work.solving.runs) {
       const bool computed = run.kind == io::ColorRun::Kind::kComputed;
       if (computed) {
-        packer_.run(work.bands, of, run.first, run.pixels, *writer_, first, packed);
+        packer_.run(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
       } else {
-        packer_.fill(work.bands, of, run.first, run.pixels, *writer_, first, packed);
+        packer_.fill(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
       }
       const auto end = Clock::now();
       const double took = std::chrono::duration<double>(end - start).count();
@@ -150,10 +151,9 @@ class UpsampleJob : public io::LineJob {
   }
 
   void pass_through(const Strip& strip, int line, std::byte* packed) const {
-    const auto& planes = source_.planes();
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      std::memcpy(packed + writer_->channel_offset(i), strip.row(i, line),
-                  static_cast<std::size_t>(source_.width()) * planes[i].sample_bytes());
+    const auto width = static_cast<std::size_t>(strip.width);
+    for (std::size_t i = 0; i < source_.planes().size(); ++i) {
+      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(i, line), strip.row_bytes[i]);
     }
   }
 
@@ -161,7 +161,7 @@ class UpsampleJob : public io::LineJob {
     const std::size_t first = source_.planes().size();
     for (std::size_t k = 0; k < (of.scale == nullptr ? 3U : 4U); ++k) {
       const float* const row = k < 3 ? of.c[k] : of.scale;
-      std::memcpy(packed + writer_->channel_offset(first + k), row, width * sizeof(float));
+      std::memcpy(packed + writer_->channel_offset(first + k, width), row, width * sizeof(float));
     }
   }
 
@@ -197,6 +197,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
+  spec.tile = options.tile;
   const bool coefficients = options.store == Store::kCoefficients;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
