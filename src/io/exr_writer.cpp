@@ -10,6 +10,7 @@
 #include "src/base/errors.hpp"
 #include "src/io/attributes.hpp"
 #include "src/io/dwa_encoder.hpp"
+#include "src/io/exr_compression.hpp"
 #include "src/io/exr_input.hpp"
 #include "src/io/zip_encoder.hpp"
 
@@ -49,57 +50,6 @@ thread_local std::string said_last;
 constexpr std::size_t kShortName = 31;
 
 constexpr int kLargestTile = 4096;
-
-int lines_per_chunk_of(CompressionKind kind) {
-  switch (kind) {
-    case CompressionKind::kZip:
-    case CompressionKind::kPxr24:
-      return 16;
-    case CompressionKind::kPiz:
-    case CompressionKind::kB44:
-    case CompressionKind::kB44a:
-    case CompressionKind::kDwaa:
-      return 32;
-    case CompressionKind::kDwab:
-      return 256;
-    default:
-      return 1;
-  }
-}
-
-exr_compression_t compression_type(CompressionKind kind) {
-  switch (kind) {
-    case CompressionKind::kRle:
-      return EXR_COMPRESSION_RLE;
-    case CompressionKind::kZips:
-      return EXR_COMPRESSION_ZIPS;
-    case CompressionKind::kZip:
-      return EXR_COMPRESSION_ZIP;
-    case CompressionKind::kPiz:
-      return EXR_COMPRESSION_PIZ;
-    case CompressionKind::kPxr24:
-      return EXR_COMPRESSION_PXR24;
-    case CompressionKind::kB44:
-      return EXR_COMPRESSION_B44;
-    case CompressionKind::kB44a:
-      return EXR_COMPRESSION_B44A;
-    case CompressionKind::kDwaa:
-      return EXR_COMPRESSION_DWAA;
-    case CompressionKind::kDwab:
-      return EXR_COMPRESSION_DWAB;
-    case CompressionKind::kNone:
-      break;
-  }
-  return EXR_COMPRESSION_NONE;
-}
-
-bool is_zip(CompressionKind kind) {
-  return kind == CompressionKind::kZip || kind == CompressionKind::kZips;
-}
-
-bool is_dwa(CompressionKind kind) {
-  return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab;
-}
 
 }  // namespace
 

@@ -1,11 +1,12 @@
 // RunDeflate: deflate in one quick pass over filtered samples, in which long runs cost next to nothing.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "src/io/deflate_block.hpp"
 
 namespace spectile::io {
 
@@ -23,16 +24,8 @@ class RunDeflate {
   static std::size_t bound(std::size_t n) { return n + n / 4096 + 4096; }
 
  private:
-  /// Literals, and then a match of any length, or none at a block's end.
-  struct Sequence {
-    std::uint32_t literals = 0;
-    std::uint32_t length = 0;
-    std::uint32_t distance = 0;
-  };
-  class Block;
-
   std::vector<std::uint32_t> seen_;  // where four bytes of a hash were last
-  std::vector<Sequence> sequences_;
+  std::vector<DeflateSequence> sequences_;
 };
 
 }  // namespace spectile::io
