@@ -81,6 +81,12 @@ struct ImageOptions {
   std::optional<std::array<int, 4>> region;
   int threads = 0;                 ///< 0: every core that the process may use
   std::size_t tile_lanes = 65536;  ///< most pixels a kernel call works on, 64 or more
+  /// upsample_image: whether what is black, masked, constant or repeated is found and not computed again. The
+  /// file is the same to the bit without; SkipStats says what it was good for.
+  bool skip = true;
+  /// Conversions of an image to another write tiles of this width and height, 1 to 4096, where it is given,
+  /// and scanlines where not.
+  std::optional<std::array<int, 2>> tile;
   ProgressFunction progress;
 };
 
@@ -109,8 +115,20 @@ enum class Store {
   kCoefficients,  ///< the method's three (or four) coefficients, which expand_image() turns into spectra
 };
 
+/// Which pixels are masked: their spectra are black, whatever their RGB (which stays as the preview, and may
+/// be anything, NaN too).
+enum class Masking {
+  kAlpha,  ///< those whose own alpha is 0; none where there is no alpha
+  kNone,   ///< none: textures that glow where alpha is 0 keep their colours
+  kFile,   ///< those where another image is 0; alpha does not matter then
+};
+
 struct UpsampleImageOptions : MethodOptions {
   Store store = Store::kSpectra;
+  Masking masking = Masking::kAlpha;
+  /// For Masking::kFile: an image of the same size, of which channel A counts, else Y, else R. Errors:
+  /// kBadFile for one of another size, or without such a channel.
+  std::string mask;
 };
 
 /// What project_image writes.
@@ -139,6 +157,21 @@ struct ProjectImageOptions : ImageOptions {
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
 };
 
+/// What upsample_image() did not compute; all zero where it was told not to skip.
+struct SkipStats {
+  std::uint64_t masked_pixels = 0;
+  std::uint64_t black_pixels = 0;     ///< not masked, black in the method's RGB
+  std::uint64_t constant_pixels = 0;  ///< in whole blocks (64 pixels side by side) of one colour, not black
+  std::uint64_t chunks = 0;           ///< runs of lines that are compressed together
+  std::uint64_t chunks_reused = 0;    ///< ... that were the same as an earlier one
+  std::uint64_t colors_looked_up =
+      0;  ///< pixels, or constant blocks, whose colour was looked for among those solved
+  std::uint64_t colors_solved = 0;  ///< ... and not found
+  /// From the measured cost of what was computed: that of a pixel's arithmetic, a colour's solution, and of
+  /// the chunks reused the first time; less what looking for them cost. Of one core.
+  double core_seconds_saved = 0;
+};
+
 /// What a conversion did.
 struct ImageReport {
   int width = 0;
@@ -152,6 +185,7 @@ struct ImageReport {
   std::uint64_t limited_pixels = 0;       ///< with a sample beyond the largest half, written as that
   std::uint64_t bytes_written = 0;
   double seconds = 0;
+  SkipStats skipped;
   std::string color_space;         ///< what the input's RGB was taken for
   std::vector<std::string> notes;  ///< what was left out, in words
   std::uint64_t pixels() const {
@@ -178,7 +212,8 @@ Result<ImageReport> project_image(const std::string& input, const std::string& o
 
 /// Turns a texture into its colour under another light, as if it were upsampled and projected under that; its
 /// alpha and other channels pass through. Direct ways give the bits of the long one for the sigmoid, and come
-/// within Relighter::bound() of it for mixtures of bases. Errors: kBadArgument too, for light as quantity.
+/// within Relighter::bound() of it for mixtures of bases. Colours of alpha 0 are kept (Masking::kNone).
+/// Errors: kBadArgument too, for light as quantity.
 Result<ImageReport> relight_image(const std::string& input, const std::string& output,
                                   const RelightImageOptions& options);
 

@@ -80,6 +80,15 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"limited_pixels", r.limited_pixels},
           {"bytes_written", r.bytes_written},
           {"seconds", r.seconds},
+          {"skipped",
+           {{"masked_pixels", r.skipped.masked_pixels},
+            {"black_pixels", r.skipped.black_pixels},
+            {"constant_pixels", r.skipped.constant_pixels},
+            {"chunks", r.skipped.chunks},
+            {"chunks_reused", r.skipped.chunks_reused},
+            {"colors_looked_up", r.skipped.colors_looked_up},
+            {"colors_solved", r.skipped.colors_solved},
+            {"core_seconds_saved", r.skipped.core_seconds_saved}}},
           {"mpixel_per_s", static_cast<double>(r.pixels()) / r.seconds * 1e-6},
           {"notes", r.notes}};
 }
@@ -92,7 +101,17 @@ std::string plural(std::uint64_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-void print_report(const Job& job, const ImageReport& r) {
+void print_skipped(const SkipStats& s) {
+  fmt::print("  skipped: {} masked, {} black, {} in blocks of one colour\n", plural(s.masked_pixels, "pixel"),
+             s.black_pixels, s.constant_pixels);
+  fmt::print("  {} of {} used again\n", s.chunks_reused, plural(s.chunks, "chunk"));
+  if (s.colors_looked_up > 0) {
+    fmt::print("  {} looked up, {} of them solved\n", plural(s.colors_looked_up, "colour"), s.colors_solved);
+  }
+  fmt::print("  about {:.2f} s of one core saved\n", s.core_seconds_saved);
+}
+
+void print_report(const Job& job, const ImageReport& r, bool stats) {
   fmt::print("{} -> {}: {} x {}, {}, {}, {}, {:.2f} s\n", job.input, job.output, r.width, r.height,
              plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds),
              r.seconds);
@@ -112,6 +131,7 @@ void print_report(const Job& job, const ImageReport& r) {
                plural(r.limited_pixels, "pixel"));
   }
   for (const std::string& note : r.notes) fmt::print("  {}\n", note);
+  if (stats) print_skipped(r.skipped);
 }
 
 }  // namespace
@@ -169,14 +189,21 @@ void add_write_options(CLI::App& command, WriteOptions& options, const char* pix
                   "Pixels with NaN or infinity: stop (no output is written) or zero (they become black)")
       ->check(CLI::IsMember({"stop", "zero"}))
       ->capture_default_str();
-  command.add_option("--tile", options.tile, "Most pixels a kernel call works on; changes speed only")
+  command
+      .add_option("--tile", options.tile,
+                  "Width and height of tiles, 1 to 4096 each, for renderers that read parts of images; "
+                  "scanlines by default")
+      ->expected(2)
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--lanes", options.lanes, "Most pixels a kernel call works on; changes speed only")
       ->check(CLI::Range(std::size_t{64}, std::size_t{1} << 30))
       ->capture_default_str();
 }
 
 int apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out) {
   out.threads = common.threads;
-  out.tile_lanes = options.tile;
+  out.tile_lanes = options.lanes;
+  if (!options.tile.empty()) out.tile = {options.tile[0], options.tile[1]};
   if (!options.pixel.empty()) out.pixel = options.pixel == "float" ? PixelType::kFloat : PixelType::kHalf;
   out.nonfinite = options.nonfinite == "zero" ? NonFinite::kZero : NonFinite::kStop;
   if (!options.compression.empty()) {
@@ -254,7 +281,7 @@ int run_jobs(const Batch& batch, const Common& common, ImageOptions& options,
     if (common.json) {
       print_json(to_json(job, *report));
     } else if (!common.quiet) {
-      print_report(job, *report);
+      print_report(job, *report, common.stats);
     }
     if (const int bad = batch.manifest.add(converted_line(batch, job, *report))) return bad;
   }

@@ -24,6 +24,7 @@ struct Common {
   std::string isa;
   bool json = false;
   bool quiet = false;
+  bool stats = false;  ///< whether the report says what was skipped
 };
 
 void add_common(CLI::App& command, Common& common);
@@ -39,7 +40,8 @@ struct WriteOptions {
   std::string pixel;
   std::string compression;
   std::string nonfinite = "stop";
-  std::size_t tile = 65536;
+  std::size_t lanes = 65536;
+  std::vector<int> tile;  ///< width and height, or none
 };
 
 void add_write_options(CLI::App& command, WriteOptions& options, const char* pixel_default);

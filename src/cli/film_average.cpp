@@ -116,6 +116,7 @@ void add_film_average(CLI::App& film, int& exit) {
       ->description(
           "Samples that are NaN or infinite: stop (no output is written) or zero (each is left out of the "
           "average at its pixel, which is 0 where all are)");
+  command->remove_option(command->get_option("--lanes"));
   command->remove_option(command->get_option("--tile"));
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });

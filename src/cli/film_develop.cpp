@@ -105,6 +105,7 @@ void add_film_develop(CLI::App& film, int& exit) {
   command->add_option("--sensor", a->sensor, "Which sensor, where the film keeps several");
   add_write_options(*command, a->write, "half");
   command->remove_option(command->get_option("--nonfinite"));
+  command->remove_option(command->get_option("--lanes"));
   command->remove_option(command->get_option("--tile"));
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });

@@ -16,6 +16,8 @@ struct Arguments {
   std::string output;
   MethodArguments method;
   std::string store = "spectra";
+  std::string mask;
+  bool no_skip = false;
 };
 
 int run(const Arguments& a) {
@@ -25,10 +27,13 @@ int run(const Arguments& a) {
   if (const int bad = apply_region(a.batch, options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
   options.store = a.store == "coefficients" ? Store::kCoefficients : Store::kSpectra;
+  options.skip = !a.no_skip;
+  if (!a.mask.empty()) options.masking = a.mask == "none" ? Masking::kNone : Masking::kFile;
+  if (options.masking == Masking::kFile) options.mask = a.mask;
   Batch batch;
   if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
   batch.settings = settings_text(options);
-  batch.made_from = files_among({a.method.light});
+  batch.made_from = files_among({a.method.light, options.mask});
   return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return upsample_image(job.input, job.output, options); });
 }
@@ -48,6 +53,15 @@ void add_upsample(CLI::App& app, int& exit) {
                    "--pixel says), which spectile expand turns into the same spectra")
       ->check(CLI::IsMember({"spectra", "coefficients"}))
       ->capture_default_str();
+  command->add_option(
+      "--mask", a->mask,
+      "Pixels that need no spectra, which become black (preview and alpha stay): an OpenEXR image of the "
+      "same "
+      "size that is 0 there, in its channel A, else Y, else R; or none, so that textures which glow where "
+      "alpha is 0 keep their colours. By default, where the image's own alpha is 0");
+  command->add_flag("--no-skip", a->no_skip,
+                    "Compute black, constant and repeated parts like any other; the file is the same");
+  command->add_flag("--stats", a->common.stats, "Say what was skipped");
   add_write_options(*command, a->write, "half");
   add_batch_options(*command, a->batch);
   add_common(*command, a->common);

@@ -92,7 +92,7 @@ Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, std::si
 /// Adds the numbers that can be averaged; false when some are not finite, which `bad` then marks.
 bool AverageStrip::add_line(const Strip& samples, int line, exact::Wide units, float* row,
                             std::vector<char>& bad, const kernels::KernelTable& kernels) {
-  const auto width = static_cast<std::size_t>(plan_.width);
+  const auto pixels = static_cast<std::size_t>(plan_.width);
   Line& state = lines_[static_cast<std::size_t>(line - first_line)];
   const std::scoped_lock lock(state.adding);
   bool all_finite = true;
@@ -105,15 +105,15 @@ bool AverageStrip::add_line(const Strip& samples, int line, exact::Wide units, f
       kernels.half_to_float(row, reinterpret_cast<const std::uint16_t*>(from), padded(plan_));
       values = row;
     }
-    if (exact::add_row(plan_.depths[plane], sums(plane, line), flags(plane, line), values, width, units)) {
+    if (exact::add_row(plan_.depths[plane], sums(plane, line), flags(plane, line), values, pixels, units)) {
       continue;
     }
     all_finite = false;
     state.missing = true;
     state.units.resize(plan_.planes.size());
-    state.units[plane].resize(width);
-    exact::add_missing(state.units[plane].data(), values, width, units);
-    for (std::size_t x = 0; x < width; ++x) bad[x] = bad[x] != 0 || !std::isfinite(values[x]) ? 1 : 0;
+    state.units[plane].resize(pixels);
+    exact::add_missing(state.units[plane].data(), values, pixels, units);
+    for (std::size_t x = 0; x < pixels; ++x) bad[x] = bad[x] != 0 || !std::isfinite(values[x]) ? 1 : 0;
   }
   return all_finite;
 }
@@ -121,15 +121,15 @@ bool AverageStrip::add_line(const Strip& samples, int line, exact::Wide units, f
 /// Keeps the first image's whole numbers, or compares another's with them.
 std::optional<Difference> AverageStrip::settle_whole(const Strip& samples, std::size_t plane, int line,
                                                      bool first) {
-  const auto width = static_cast<std::size_t>(plan_.width);
+  const auto pixels = static_cast<std::size_t>(plan_.width);
   auto* const kept = reinterpret_cast<std::uint32_t*>(Strip::row(plane, line));
   const auto* const here = reinterpret_cast<const std::uint32_t*>(samples.row(plane, line));
   if (first) {
-    std::copy_n(here, width, kept);
+    std::copy_n(here, pixels, kept);
     return {};
   }
-  const auto [at, other] = std::mismatch(here, here + width, kept);
-  if (at == here + width) return {};
+  const auto [at, other] = std::mismatch(here, here + pixels, kept);
+  if (at == here + pixels) return {};
   return Difference{plane, static_cast<int>(at - here), line, *at, *other};
 }
 

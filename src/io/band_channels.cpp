@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "src/io/spectral_layout.hpp"
@@ -14,6 +15,13 @@ namespace {
 /// The coefficients of `of` from pixel `at` on.
 LineCoefficients from(const LineCoefficients& of, std::size_t at) {
   return {{of.c[0] + at, of.c[1] + at, of.c[2] + at}, of.scale == nullptr ? nullptr : of.scale + at};
+}
+
+/// Packed rows of floats may lie at any even address.
+template <class Sample>
+void fill_row(std::byte* row, std::size_t at, std::size_t n, Sample sample) {
+  std::byte* const to = row + at * sizeof(Sample);
+  for (std::size_t i = 0; i < n; ++i) std::memcpy(to + i * sizeof(Sample), &sample, sizeof(Sample));
 }
 
 }  // namespace
@@ -57,20 +65,53 @@ Result<BandPacker::Work> BandPacker::work() const {
   auto block = FloatBuffer::create((rows_.count() + 2) * kLanesPerBlock);
   if (!block) return block.error();
   out.block = *std::move(block);
+  out.filler.resize(rows_.count());
   return out;
 }
 
 std::uint64_t BandPacker::line(Work& work, const LineCoefficients& of, std::size_t width,
                                const ExrWriter& writer, std::size_t first, std::byte* packed) const {
+  run(work, of, {0, width, width}, writer, first, packed);
+  return limited(work, of, width);
+}
+
+void BandPacker::run(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+                     std::size_t first, std::byte* packed) const {
   const std::size_t sample_bytes = half_ ? 2 : 4;
-  for (std::size_t at = 0; at < width; at += segment_) {
+  const std::size_t end = part.at + part.pixels;
+  for (std::size_t at = part.at; at < end; at += segment_) {
     for (std::size_t b = 0; b < rows_.count(); ++b) {
-      work.rows[b] = packed + writer.channel_offset(first + b) + at * sample_bytes;
+      work.rows[b] = packed + writer.channel_offset(first + b, part.width) + at * sample_bytes;
     }
     const LineCoefficients segment = from(of, at);
     rows_.expand_rows(kernels_, segment.c, segment.scale, work.rows.data(), half_,
-                      std::min(segment_, width - at));
+                      std::min(segment_, end - at));
   }
+}
+
+void BandPacker::fill(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+                      std::size_t first, std::byte* packed) const {
+  const LineCoefficients segment = from(of, part.at);
+  std::array<std::uint32_t, 4> bits{};
+  for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint32_t>(segment.c[k][0]);
+  if (segment.scale != nullptr) bits[3] = std::bit_cast<std::uint32_t>(segment.scale[0]);
+  if (!work.has_filler || bits != work.filler_of) {
+    for (std::size_t b = 0; b < rows_.count(); ++b) work.rows[b] = &work.filler[b];
+    rows_.expand_rows(kernels_, segment.c, segment.scale, work.rows.data(), half_, 1);
+    work.filler_of = bits;
+    work.has_filler = true;
+  }
+  for (std::size_t b = 0; b < rows_.count(); ++b) {
+    std::byte* const row = packed + writer.channel_offset(first + b, part.width);
+    if (half_) {
+      fill_row(row, part.at, part.pixels, static_cast<std::uint16_t>(work.filler[b]));
+    } else {
+      fill_row(row, part.at, part.pixels, work.filler[b]);
+    }
+  }
+}
+
+std::uint64_t BandPacker::limited(Work& work, const LineCoefficients& of, std::size_t width) const {
   return half_ && may_exceed_half(of, width) ? count_limited(work, of, width) : 0;
 }
 

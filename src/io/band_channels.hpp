@@ -2,6 +2,7 @@
 // packed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <spectile/image.hpp>
 #include <string>
@@ -38,6 +39,10 @@ class BandPacker {
   struct Work {
     std::vector<void*> rows;  // where each band of the present segment goes
     FloatBuffer block;        // spectra of 64 pixels, to count those that a half cannot hold
+    // Samples of the colour that filled a run last, as they are packed, and that colour's coefficients.
+    std::vector<std::uint32_t> filler;
+    std::array<std::uint32_t, 4> filler_of{};
+    bool has_filler = false;
   };
 
   /// The kernels and the rows must outlive it.
@@ -50,6 +55,21 @@ class BandPacker {
   /// have a sample that was limited to the largest half.
   std::uint64_t line(Work& work, const LineCoefficients& of, std::size_t width, const ExrWriter& writer,
                      std::size_t first, std::byte* packed) const;
+
+  /// `pixels` pixels from pixel `at`, a multiple of 64, on, of a line of `width`.
+  struct Part {
+    std::size_t at = 0;
+    std::size_t pixels = 0;
+    std::size_t width = 0;
+  };
+  /// The same for a part of a line; none is counted.
+  void run(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+           std::size_t first, std::byte* packed) const;
+  /// The same bytes for pixels that all have the coefficients of the first.
+  void fill(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
+            std::size_t first, std::byte* packed) const;
+  /// How many pixels of a line have a sample that was limited.
+  std::uint64_t limited(Work& work, const LineCoefficients& of, std::size_t width) const;
 
  private:
   bool may_exceed_half(const LineCoefficients& of, std::size_t width) const;

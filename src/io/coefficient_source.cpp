@@ -30,7 +30,7 @@ bool claims_coefficients(const Imf::Header& header) {
 }
 
 Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_ptr<ExrInput> input,
-                                                                   const Region& region) {
+                                                                   const Crop& region) {
   const std::string& path = input->path();
   int part = 0;
   while (part < input->parts() && (input->deep(part) || !claims_coefficients(input->header(part)))) ++part;

@@ -24,7 +24,7 @@ class CoefficientSource {
   /// attributes are missing or damaged, channels missing, subsampled or too many, or spectral channels there
   /// already; those of RegionReader.
   static Result<std::unique_ptr<CoefficientSource>> open(std::unique_ptr<ExrInput> input,
-                                                         const Region& region = {});
+                                                         const Crop& region = {});
 
   ExrInput& input() noexcept { return *input_; }
   int part() const noexcept { return part_; }

@@ -22,10 +22,21 @@ ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, cons
 }
 
 float ColorStage::line(const Strip& strip, int line, const ColorLine& color, LineStats& stats) const {
+  const auto width = static_cast<std::size_t>(strip.width);
+  load(strip, line, color);
+  const Settled settled = settle(line, color, width, stats);
+  if (settled.may_be_outside) limit(line, color, width, stats);
+  return settled.largest;
+}
+
+void ColorStage::load(const Strip& strip, int line, const ColorLine& color) const {
+  source_.float_rows(kernels_, strip, line, color.rows);
+}
+
+ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::size_t width,
+                                       LineStats& stats) const {
   float* const* rows = color.rows;
-  const auto width = static_cast<std::size_t>(source_.width());
   const float* const rgb[3] = {rows[0], rows[1], rows[2]};
-  source_.float_rows(kernels_, strip, line, rows);
   settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
   LineStats own;
   float largest = settle_range(kernels_, rows, width, line, options_.negative, own);
@@ -38,13 +49,13 @@ float ColorStage::line(const Strip& strip, int line, const ColorLine& color, Lin
   stats.over_one += own.over_one;
   // Most lines have no colour that any method could not make.
   const bool bounded = !rows::mixes_bases(upsampler_) && options_.quantity == Quantity::kReflectance;
-  if (own.negative.count == 0 && !(bounded && own.over_one > 0) && !rows::misses_inside(upsampler_)) {
-    return largest;
-  }
-  const auto policy = out_of_gamut_ == GamutPolicy::kClip ? OutOfGamut::kClip : OutOfGamut::kKeep;
-  const GamutReport found = rows::limit_gamut(kernels_, upsampler_, rows, policy, width);
+  return {largest,
+          own.negative.count > 0 || (bounded && own.over_one > 0) || rows::misses_inside(upsampler_)};
+}
+
+void ColorStage::limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
+  const GamutReport found = rows::limit_gamut(kernels_, upsampler_, color.rows, limiting(), width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
-  return largest;
 }
 
 std::optional<Error> ColorStage::refusal(const std::string& path, const LineStats& stats) const {

@@ -2,32 +2,14 @@
 #include "src/io/conversion.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 
 #include "src/base/errors.hpp"
+#include "src/io/chunk_cache.hpp"
 #include "src/ops/tiles.hpp"
 
 namespace spectile::io {
-
-void PixelCount::add(std::uint64_t more, int x, int y) {
-  if (count == 0 && more > 0) {
-    first_x = x;
-    first_y = y;
-  }
-  count += more;
-}
-
-void PixelCount::add(const PixelCount& later) {
-  add(later.count, later.first_x, later.first_y);
-}
-
-void LineStats::add(const LineStats& later) {
-  nonfinite.add(later.nonfinite);
-  negative.add(later.negative);
-  outside.add(later.outside);
-  over_one += later.over_one;
-  limited += later.limited;
-}
 
 Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats) {
   writer_ = &writer;
@@ -44,6 +26,7 @@ Result<std::shared_ptr<Strip>> MemoryJob::read(int first_line, int lines) {
   auto strip = std::make_shared<Strip>();
   strip->first_line = first_line;
   strip->lines = lines;
+  strip->width = writer_->width();
   return strip;
 }
 
@@ -58,9 +41,14 @@ std::size_t slot_count(const ImageSpec& spec, int width, int threads) {
 
 namespace {
 
+// Memory for chunks that may come again.
+constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
+
 struct Slot {
   std::shared_ptr<Strip> strip;
+  std::shared_ptr<KnownChunk> known;  // what it becomes, or, where it is reused, what it became before
   int chunk = 0;
+  bool reused = false;
   bool encoded = false;
   LineStats stats;
 };
@@ -76,7 +64,11 @@ class Run {
         strip_lines_((strip_lines + writer.lines_per_chunk() - 1) / writer.lines_per_chunk() *
                      writer.lines_per_chunk()),
         options_(options),
-        stop_at_(stop_at) {}
+        stop_at_(stop_at),
+        cache_(kCacheBytes),
+        counts_(options.skip && job.repeats()),
+        // What is written as it is costs little more than to look for it.
+        caches_(counts_ && writer.compresses()) {}
 
   Result<LineStats> run(int threads) {
     read_ahead_ = threads > 1;
@@ -93,18 +85,27 @@ class Run {
  private:
   bool produce(Slot& slot) {
     if (failed_ || next_chunk_ >= writer_.chunks()) return false;
-    const int first = next_chunk_ * writer_.lines_per_chunk();
-    const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
-    if (!strip_ || !strip_->holds(first, lines)) {
+    const Region region = writer_.region(next_chunk_);
+    if (!strip_ || !strip_->holds(region.y, region.height)) {
       strip_.reset();
-      auto strip = next_strip(first);
+      auto strip = next_strip(region.y);
       if (!strip) return fail(strip.error());
       strip_ = *std::move(strip);
     }
     slot.strip = strip_;
     slot.chunk = next_chunk_++;
     slot.stats = {};
+    slot.known.reset();
+    slot.reused = false;
+    // Here, where chunks come in order, so that which are reused depends on no thread.
+    if (caches_) look_up(slot, region);
     return true;
+  }
+
+  void look_up(Slot& slot, const Region& region) {
+    auto found = cache_.find(*slot.strip, region);
+    slot.known = std::move(found.chunk);
+    slot.reused = found.known;
   }
 
   /// The strip that starts at `first`, and the reading of the one after it under way.
@@ -123,20 +124,39 @@ class Run {
   void transform(std::size_t index) {
     Slot& slot = slots_[index];
     slot.encoded = false;
-    if (failed_) return;
+    if (failed_ || slot.reused) return;
+    const auto start = std::chrono::steady_clock::now();
+    if (counts_) slot.stats.costs.chunks = 1;
+    const Region region = writer_.region(slot.chunk);
+    if (region.width < slot.strip->width) {
+      // A tile is to its job an image of its own.
+      auto tile = cut_strip(*slot.strip, region.x, region.width, region.y, region.height);
+      if (!tile) {
+        fail(tile.error());
+        return;
+      }
+      slot.strip = *std::move(tile);
+    }
     if (stopped_) {
-      const int first = slot.chunk * writer_.lines_per_chunk();
-      const int lines = std::min(writer_.lines_per_chunk(), writer_.height() - first);
-      for (int i = 0; i < lines; ++i) job_.line(index, *slot.strip, first + i, nullptr, slot.stats);
+      for (int i = 0; i < region.height; ++i) {
+        job_.line(index, *slot.strip, region.y + i, nullptr, slot.stats);
+      }
+      slot.stats = slot.stats.moved(region.x, 0);
+      if (slot.known) slot.known->stats = slot.stats;
       return;
     }
-    const ExrWriter::Pack pack = [&](int first, int lines, std::byte* packed) {
-      for (int i = 0; i < lines; ++i, packed += writer_.line_bytes()) {
-        job_.line(index, *slot.strip, first + i, packed, slot.stats);
+    const ExrWriter::Pack pack = [&](const Region& to, std::byte* packed) {
+      for (int i = 0; i < to.height; ++i, packed += writer_.line_bytes(to.width)) {
+        job_.line(index, *slot.strip, to.y + i, packed, slot.stats);
       }
     };
     if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
+    slot.stats = slot.stats.moved(region.x, 0);
     slot.encoded = true;
+    if (slot.known && !failed_) {
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      cache_.complete(*slot.known, writer_.encoded(index), slot.stats, took.count());
+    }
     if (stop_at_(slot.stats)) stopped_ = true;
   }
 
@@ -144,20 +164,35 @@ class Run {
     Slot& slot = slots_[index];
     slot.strip.reset();
     if (failed_) return;
+    if (slot.reused) reuse(slot);
     total_.add(slot.stats);
     if (slot.encoded && !stopped_) {
-      if (auto written = writer_.write(index); !written) {
+      const auto encoded =
+          slot.reused ? std::span<const std::byte>(slot.known->output) : writer_.encoded(index);
+      if (auto written = writer_.write(slot.chunk, encoded); !written) {
         fail(written.error());
         return;
       }
     }
-    const int done = std::min((slot.chunk + 1) * writer_.lines_per_chunk(), writer_.height());
-    const auto width = static_cast<std::uint64_t>(writer_.width());
-    const Progress progress = {static_cast<std::uint64_t>(done) * width,
-                               static_cast<std::uint64_t>(writer_.height()) * width};
+    slot.known.reset();
+    const Region region = writer_.region(slot.chunk);
+    done_ += static_cast<std::uint64_t>(region.width) * static_cast<std::uint64_t>(region.height);
+    const Progress progress = {
+        done_, static_cast<std::uint64_t>(writer_.width()) * static_cast<std::uint64_t>(writer_.height())};
     if (options_.progress && !options_.progress(progress)) {
       fail(make_error(ErrorCode::kCancelled, "stopped on request"));
     }
+  }
+
+  /// Chunks are consumed in order, so the one that was made of the same input is there.
+  void reuse(Slot& slot) {
+    const KnownChunk& known = *slot.known;
+    const Region region = writer_.region(slot.chunk);
+    slot.stats = known.stats.moved(region.x - known.region.x, region.y - known.region.y);
+    slot.stats.costs = {};
+    slot.stats.costs.chunks = slot.stats.costs.chunks_reused = 1;
+    slot.stats.costs.reused_seconds = known.seconds;
+    slot.encoded = known.encoded;
   }
 
   bool fail(const Error& error) {
@@ -173,10 +208,14 @@ class Run {
   int strip_lines_;
   const ImageOptions& options_;
   const std::function<bool(const LineStats&)>& stop_at_;
+  ChunkCache cache_;
+  bool counts_ = false;
+  bool caches_ = false;
   std::shared_ptr<Strip> strip_;
   bool read_ahead_ = false;
   std::future<Result<std::shared_ptr<Strip>>> ahead_;  // its destructor waits for the reading to end
   int next_chunk_ = 0;
+  std::uint64_t done_ = 0;  // pixels
   LineStats total_;
   std::atomic<bool> failed_ = false;
   std::atomic<bool> stopped_ = false;

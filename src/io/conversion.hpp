@@ -14,30 +14,10 @@
 
 #include "kernels/abi.hpp"
 #include "src/io/exr_writer.hpp"
+#include "src/io/line_stats.hpp"
 #include "src/io/strips.hpp"
 
 namespace spectile::io {
-
-/// Pixels of one kind in a run of lines: how many, and where the first is.
-struct PixelCount {
-  std::uint64_t count = 0;
-  int first_x = -1;
-  int first_y = -1;
-  void add(std::uint64_t more, int x, int y);
-  void add(const PixelCount& later);
-  /// The same with a first pixel that is counted from elsewhere.
-  PixelCount moved(const std::array<int, 2>& by) const { return {count, first_x + by[0], first_y + by[1]}; }
-};
-
-/// What a run of lines was found to hold.
-struct LineStats {
-  PixelCount nonfinite;
-  PixelCount negative;
-  PixelCount outside;  // colours that the method cannot make
-  std::uint64_t over_one = 0;
-  std::uint64_t limited = 0;
-  void add(const LineStats& later);
-};
 
 /// One job's own part of a conversion.
 class LineJob {
@@ -45,9 +25,13 @@ class LineJob {
   virtual ~LineJob() = default;
   /// Reads lines into a strip; in order, one call at a time.
   virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
-  /// Makes one line: with `packed`, the whole output line; without, only what `stats` needs. `slot` tells
+  /// Makes one line of a strip, which may be a tile and have less pixels a line than the image: with
+  /// `packed`, the whole output line; without, only what `stats` needs. `slot` tells
   /// which of the job's work spaces to use; calls with different slots run side by side.
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
+  /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are
+  /// encoded once, as far as they are remembered.
+  virtual bool repeats() const { return false; }
 };
 
 /// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.

@@ -17,8 +17,10 @@ struct PackedChannel {
 };
 
 /// Compresses `lines` packed lines of `width` pixels with OpenEXR's C++ library, by writing them as an image
-/// in memory and taking its only chunk out. `level` is DWA's own, -1 for OpenEXR's default (45). May throw.
+/// in memory and taking its only chunk out. `level` is DWA's own, -1 for OpenEXR's default (45).
+/// `tile`: whether they are a tile, of any height, instead of a chunk of lines. May throw.
 std::vector<char> encode_dwa(Imf::Compression method, int level, const std::vector<PackedChannel>& channels,
-                             std::size_t line_bytes, int width, int lines, const std::byte* packed);
+                             std::size_t line_bytes, int width, int lines, const std::byte* packed,
+                             bool tile);
 
 }  // namespace spectile::io

@@ -63,20 +63,19 @@ class ExpandJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(source_.width());
+    const auto width = static_cast<std::size_t>(strip.width);
     float* rows[4] = {};
     for (std::size_t k = 0; k < source_.coefficients(); ++k) {
       rows[k] = work.coefficients.data() + k * padded_;
       std::memcpy(rows[k], strip.row(k, line), width * sizeof(float));
-      std::fill(rows[k] + width, rows[k] + padded_, 0.0F);
+      std::fill(rows[k] + width, rows[k] + blocks_for(width) * kLanesPerBlock, 0.0F);
     }
     settle(rows, width, line, stats);
     if (packed == nullptr) return;
     const std::size_t passing = source_.planes().size() - source_.coefficients();
     for (std::size_t i = 0; i < passing; ++i) {
       const std::size_t plane = source_.coefficients() + i;
-      std::memcpy(packed + writer_->channel_offset(i), strip.row(plane, line),
-                  width * source_.planes()[plane].sample_bytes());
+      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(plane, line), strip.row_bytes[plane]);
     }
     const io::LineCoefficients of = {{rows[0], rows[1], rows[2]}, rows[3]};
     stats.limited += packer_.line(work.bands, of, width, *writer_, passing, packed);
@@ -138,6 +137,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   spec.source = &(*source)->header();
   spec.channels = job.channels(bands);
   spec.compression = options.compression;
+  spec.tile = options.tile;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
   MethodOptions made;

@@ -1,16 +1,16 @@
-// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in
-// order.
+// ExrWriter: OpenEXR files of scanlines or tiles, their chunks packed by the caller, encoded in parallel,
+// written in order.
 #include "src/io/exr_writer.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <numeric>
-#include <span>
 
 #include "src/base/errors.hpp"
 #include "src/io/attributes.hpp"
 #include "src/io/dwa_encoder.hpp"
+#include "src/io/exr_compression.hpp"
 #include "src/io/exr_input.hpp"
 #include "src/io/zip_encoder.hpp"
 
@@ -22,7 +22,7 @@ struct ExrWriter::Encoder {
   exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
   exr_chunk_info_t chunk{};
   const Pack* pack = nullptr;
-  int first_line = 0;
+  Region region;
   bool ready = false;
   std::vector<std::byte> lines;       // for DWA, which has its own encoder
   std::vector<char> compressed;       // ... and its result
@@ -32,7 +32,7 @@ struct ExrWriter::Encoder {
   /// The pack step of the pipeline: the caller's last kernels write straight into the packed lines.
   static exr_result_t pack_step(exr_encode_pipeline_t* pipeline) {
     auto* self = static_cast<Encoder*>(pipeline->encoding_user_data);
-    (*self->pack)(self->first_line, pipeline->chunk.height, static_cast<std::byte*>(pipeline->packed_buffer));
+    (*self->pack)(self->region, static_cast<std::byte*>(pipeline->packed_buffer));
     pipeline->packed_bytes = pipeline->chunk.unpacked_size;
     return EXR_ERR_SUCCESS;
   }
@@ -49,64 +49,16 @@ thread_local std::string said_last;
 // Longest name that every version of OpenEXR reads.
 constexpr std::size_t kShortName = 31;
 
-int lines_per_chunk_of(CompressionKind kind) {
-  switch (kind) {
-    case CompressionKind::kZip:
-    case CompressionKind::kPxr24:
-      return 16;
-    case CompressionKind::kPiz:
-    case CompressionKind::kB44:
-    case CompressionKind::kB44a:
-    case CompressionKind::kDwaa:
-      return 32;
-    case CompressionKind::kDwab:
-      return 256;
-    default:
-      return 1;
-  }
-}
-
-exr_compression_t compression_type(CompressionKind kind) {
-  switch (kind) {
-    case CompressionKind::kRle:
-      return EXR_COMPRESSION_RLE;
-    case CompressionKind::kZips:
-      return EXR_COMPRESSION_ZIPS;
-    case CompressionKind::kZip:
-      return EXR_COMPRESSION_ZIP;
-    case CompressionKind::kPiz:
-      return EXR_COMPRESSION_PIZ;
-    case CompressionKind::kPxr24:
-      return EXR_COMPRESSION_PXR24;
-    case CompressionKind::kB44:
-      return EXR_COMPRESSION_B44;
-    case CompressionKind::kB44a:
-      return EXR_COMPRESSION_B44A;
-    case CompressionKind::kDwaa:
-      return EXR_COMPRESSION_DWAA;
-    case CompressionKind::kDwab:
-      return EXR_COMPRESSION_DWAB;
-    case CompressionKind::kNone:
-      break;
-  }
-  return EXR_COMPRESSION_NONE;
-}
-
-bool is_zip(CompressionKind kind) {
-  return kind == CompressionKind::kZip || kind == CompressionKind::kZips;
-}
-
-bool is_dwa(CompressionKind kind) {
-  return kind == CompressionKind::kDwaa || kind == CompressionKind::kDwab;
-}
+constexpr int kLargestTile = 4096;
 
 }  // namespace
 
 std::size_t encoder_bytes(const ImageSpec& spec, int width) {
   std::size_t pixel = 0;
   for (const ChannelSpec& channel : spec.channels) pixel += channel.sample_bytes();
-  const auto lines = static_cast<std::size_t>(lines_per_chunk_of(spec.compression.kind));
-  const std::size_t packed = pixel * static_cast<std::size_t>(width) * lines;
+  const int lines = spec.tile ? (*spec.tile)[1] : lines_per_chunk_of(spec.compression.kind);
+  const int across = spec.tile ? std::min((*spec.tile)[0], width) : width;
+  const std::size_t packed = pixel * static_cast<std::size_t>(across) * static_cast<std::size_t>(lines);
   // Packed lines; compressed, the result and the compressor's own copies too.
   return spec.compression.kind == CompressionKind::kNone ? packed : 4 * packed;
 }
@@ -135,6 +87,12 @@ Error ExrWriter::write_failure(const char* doing, exr_result_t code) {
 
 Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, std::size_t slots) {
   path_ = path;
+  tiled_ = spec.tile.has_value();
+  for (const int side : spec.tile.value_or(std::array{1, 1})) {
+    if (side >= 1 && side <= kLargestTile) continue;
+    return make_error(ErrorCode::kBadArgument, "tiles of {} x {}: sides are 1 to {}", (*spec.tile)[0],
+                      (*spec.tile)[1], kLargestTile);
+  }
   exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
   init.user_data = this;
   init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* message) { said_last = message; };
@@ -153,7 +111,7 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   };
   SPECTILE_TRY(check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &init)));
   int part = 0;
-  SPECTILE_TRY(check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part)));
+  SPECTILE_TRY(check(exr_add_part(context_, "", tiled_ ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part)));
 
   bool long_names = false;
   for (const ChannelSpec& channel : spec.channels)
@@ -173,6 +131,11 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
       exr_initialize_required_attr(context_, part, &display_window, &data_window,
                                    spec.source->pixelAspectRatio(), &centre, spec.source->screenWindowWidth(),
                                    EXR_LINEORDER_INCREASING_Y, compression_type(spec.compression.kind))));
+  if (tiled_) {
+    SPECTILE_TRY(check(exr_set_tile_descriptor(context_, part, static_cast<std::uint32_t>((*spec.tile)[0]),
+                                               static_cast<std::uint32_t>((*spec.tile)[1]),
+                                               EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN)));
+  }
   SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
   for (const auto& [name, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
@@ -181,7 +144,8 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   width_ = data.max.x - data.min.x + 1;
   height_ = data.max.y - data.min.y + 1;
   first_y_ = data.min.y;
-  lines_per_chunk_ = lines_per_chunk_of(spec.compression.kind);
+  lines_per_chunk_ = tiled_ ? (*spec.tile)[1] : lines_per_chunk_of(spec.compression.kind);
+  chunk_width_ = tiled_ ? (*spec.tile)[0] : width_;
   // A line's channels lie in the order of their names.
   std::vector<std::size_t> order(spec.channels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -194,8 +158,8 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
     const ChannelSpec& channel = spec.channels[i];
     SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), channel.type,
                                        EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1)));
-    offsets_[i] = line_bytes_;
-    line_bytes_ += channel.sample_bytes() * static_cast<std::size_t>(width_);
+    offsets_[i] = pixel_bytes_;
+    pixel_bytes_ += channel.sample_bytes();
   }
   SPECTILE_TRY(check(exr_write_header(context_)));
   for (std::size_t i = 0; i < slots; ++i) encoders_.push_back(std::make_unique<Encoder>());
@@ -214,19 +178,19 @@ ExrWriter::~ExrWriter() {
 
 Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack) {
   Encoder& encoder = *encoders_[slot];
-  encoder.first_line = chunk * lines_per_chunk_;
-  const int lines = std::min(lines_per_chunk_, height_ - encoder.first_line);
-  encoder.lines.resize(line_bytes_ * static_cast<std::size_t>(lines));
-  pack(encoder.first_line, lines, encoder.lines.data());
+  const Region region = this->region(chunk);
+  const auto width = static_cast<std::size_t>(region.width);
+  encoder.lines.resize(line_bytes(region.width) * static_cast<std::size_t>(region.height));
+  pack(region, encoder.lines.data());
   std::vector<PackedChannel> channels;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    channels.push_back({channels_[i].name.c_str(), channels_[i].type, offsets_[i]});
+    channels.push_back({channels_[i].name.c_str(), channels_[i].type, channel_offset(i, width)});
   }
   const auto method =
       compression_.kind == CompressionKind::kDwab ? Imf::DWAB_COMPRESSION : Imf::DWAA_COMPRESSION;
   return guarded(path_, [&] {
-    encoder.compressed =
-        encode_dwa(method, compression_.level, channels, line_bytes_, width_, lines, encoder.lines.data());
+    encoder.compressed = encode_dwa(method, compression_.level, channels, line_bytes(region.width),
+                                    region.width, region.height, encoder.lines.data(), tiled_);
     encoder.result = std::as_bytes(std::span(encoder.compressed));
   });
 }
@@ -234,10 +198,12 @@ Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack
 Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   if (is_dwa(compression_.kind)) return encode_dwa_chunk(slot, chunk, pack);
   Encoder& encoder = *encoders_[slot];
-  const int y = first_y_ + chunk * lines_per_chunk_;
-  exr_result_t code = exr_write_scanline_chunk_info(context_, 0, y, &encoder.chunk);
+  encoder.region = region(chunk);
+  exr_result_t code =
+      tiled_ ? exr_write_tile_chunk_info(context_, 0, chunk % chunks_across(), chunk / chunks_across(), 0, 0,
+                                         &encoder.chunk)
+             : exr_write_scanline_chunk_info(context_, 0, first_y_ + encoder.region.y, &encoder.chunk);
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
-  encoder.first_line = chunk * lines_per_chunk_;
   encoder.pack = &pack;
   code = encoder.ready ? exr_encoding_update(context_, 0, &encoder.chunk, &encoder.pipeline)
                        : exr_encoding_initialize(context_, 0, &encoder.chunk, &encoder.pipeline);
@@ -281,10 +247,25 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   });
 }
 
-Result<void> ExrWriter::write(std::size_t slot) {
-  const Encoder& encoder = *encoders_[slot];
-  const exr_result_t code = exr_write_scanline_chunk(context_, 0, first_y_ + encoder.first_line,
-                                                     encoder.result.data(), encoder.result.size());
+Region ExrWriter::region(int chunk) const noexcept {
+  Region out;
+  out.x = chunk % chunks_across() * chunk_width_;
+  out.y = chunk / chunks_across() * lines_per_chunk_;
+  out.width = std::min(chunk_width_, width_ - out.x);
+  out.height = std::min(lines_per_chunk_, height_ - out.y);
+  return out;
+}
+
+std::span<const std::byte> ExrWriter::encoded(std::size_t slot) const {
+  return encoders_[slot]->result;
+}
+
+Result<void> ExrWriter::write(int chunk, std::span<const std::byte> encoded) {
+  const exr_result_t code =
+      tiled_
+          ? exr_write_tile_chunk(context_, 0, chunk % chunks_across(), chunk / chunks_across(), 0, 0,
+                                 encoded.data(), encoded.size())
+          : exr_write_scanline_chunk(context_, 0, first_y_ + region(chunk).y, encoded.data(), encoded.size());
   if (code != EXR_ERR_SUCCESS) return write_failure("write", code);
   return {};
 }

@@ -1,14 +1,17 @@
-// ExrWriter: scanline OpenEXR files, their chunks packed by the caller, encoded in parallel, written in
-// order.
+// ExrWriter: OpenEXR files of scanlines or tiles, their chunks packed by the caller, encoded in parallel,
+// written in order.
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/openexr.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <spectile/image.hpp>
 #include <spectile/result.hpp>
 #include <string>
@@ -31,15 +34,24 @@ struct ImageSpec {
   const Imf::Header* source = nullptr;
   std::vector<ChannelSpec> channels;  // names must be unique; the order is free
   Compression compression;
+  std::optional<std::array<int, 2>> tile;  // width, height; scanlines where none
   std::vector<std::pair<std::string, std::string>> text_attributes;
   std::vector<std::string> replaced;
+};
+
+/// Pixels of an image that make a chunk, counted from its upper left corner.
+struct Region {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
 };
 
 /// Encodes and writes one file. Slots are independent encoders; no two threads may use one at a time.
 class ExrWriter {
  public:
-  /// Packs `lines` lines from line `first` (counted from 0 at the top) one after another at `packed`.
-  using Pack = std::function<void(int first, int lines, std::byte* packed)>;
+  /// Packs a region's lines one after another at `packed`.
+  using Pack = std::function<void(const Region& region, std::byte* packed)>;
 
   /// Errors: those of AtomicFile::create(), kBadFile for a header that OpenEXR refuses.
   static Result<std::unique_ptr<ExrWriter>> create(const std::string& path, const ImageSpec& spec,
@@ -51,15 +63,30 @@ class ExrWriter {
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
   int lines_per_chunk() const noexcept { return lines_per_chunk_; }
-  int chunks() const noexcept { return (height_ + lines_per_chunk_ - 1) / lines_per_chunk_; }
-  std::size_t line_bytes() const noexcept { return line_bytes_; }
-  /// Byte offset of a channel within a packed line, by its place in the spec.
-  std::size_t channel_offset(std::size_t channel) const { return offsets_[channel]; }
+  int chunks() const noexcept {
+    return chunks_across() * ((height_ + lines_per_chunk_ - 1) / lines_per_chunk_);
+  }
+  /// What a chunk holds: tiles go from left to right, then down.
+  Region region(int chunk) const noexcept;
+  /// Whether chunks are not written as they are packed.
+  bool compresses() const noexcept { return compression_.kind != CompressionKind::kNone; }
+  /// Bytes of a packed line of so many pixels.
+  std::size_t line_bytes(int width) const noexcept { return pixel_bytes_ * static_cast<std::size_t>(width); }
+  /// Byte offset of a channel within a packed line of so many pixels, by its place in the spec.
+  std::size_t channel_offset(std::size_t channel, std::size_t width) const {
+    return offsets_[channel] * width;
+  }
+  /// Within a line of the whole width.
+  std::size_t channel_offset(std::size_t channel) const {
+    return channel_offset(channel, static_cast<std::size_t>(width_));
+  }
 
   /// Packs and compresses a chunk in a slot. May run beside encode() and write() of other slots.
   Result<void> encode(std::size_t slot, int chunk, const Pack& pack);
-  /// Writes what the slot holds; chunks must come in order.
-  Result<void> write(std::size_t slot);
+  /// What encode() left in the slot: a chunk as it is in the file.
+  std::span<const std::byte> encoded(std::size_t slot) const;
+  /// Writes an encoded chunk; chunks must come in order.
+  Result<void> write(int chunk, std::span<const std::byte> encoded);
   /// Completes the file and gives it its name.
   Result<void> commit();
   std::uint64_t bytes_written() const noexcept { return bytes_written_; }
@@ -69,6 +96,7 @@ class ExrWriter {
   Result<void> start(const std::string& path, const ImageSpec& spec, std::size_t slots);
   Error failure(const char* doing, exr_result_t code);
   Error write_failure(const char* doing, exr_result_t code);
+  int chunks_across() const noexcept { return (width_ + chunk_width_ - 1) / chunk_width_; }
   Result<void> encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack);
   struct Encoder;
 
@@ -76,10 +104,12 @@ class ExrWriter {
   std::string path_;
   exr_context_t context_ = nullptr;
   std::vector<std::unique_ptr<Encoder>> encoders_;
-  std::vector<std::size_t> offsets_;
+  std::vector<std::size_t> offsets_;  // of channels, in bytes a pixel
   std::vector<ChannelSpec> channels_;
   Compression compression_;
-  std::size_t line_bytes_ = 0;
+  std::size_t pixel_bytes_ = 0;
+  bool tiled_ = false;
+  int chunk_width_ = 1;
   int width_ = 0;
   int height_ = 0;
   int first_y_ = 0;

@@ -63,7 +63,7 @@ class SaveJob : public io::MemoryJob {
             io::LineStats& /*stats*/) override {
     if (packed == nullptr) return;
     const int y = window_.y0 + line;
-    std::memset(packed, 0, writer().line_bytes());
+    std::memset(packed, 0, writer().line_bytes(writer().width()));
     for (int x = window_.x0; x < window_.x1;) {
       const int end = std::min(window_.x1, (x / kFilmTile + 1) * kFilmTile);
       const std::int64_t* const tile = s_.tiles[s_.tile_at(x, y)];

@@ -15,6 +15,8 @@ struct ColorLine {
   float* rows[3] = {nullptr, nullptr, nullptr};
   std::size_t padded = 0;
   static Result<ColorLine> create(int width);
+  /// For lines of less pixels than it was made for, those of a tile.
+  void set_width(std::size_t width) { padded = blocks_for(width) * kLanesPerBlock; }
 };
 
 /// Largest magnitude of a component that is converted: beyond it sums of products could overflow.

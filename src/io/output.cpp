@@ -26,12 +26,13 @@ Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std:
 }
 
 Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
-                            const ImageOptions& options, const Refusal& refusal) {
-  const auto forbids = [&refusal](const LineStats& found) { return refusal(found).has_value(); };
+                            const ImageOptions& options, const Refusal& refusal, LineStats* found) {
+  const auto forbids = [&refusal](const LineStats& so_far) { return refusal(so_far).has_value(); };
   const auto run = run_conversion(job, writer, slots, strip_lines, options, forbids);
   if (!run) return run.error();
   const LineStats& stats = *run;
   if (auto refused = refusal(stats)) return *std::move(refused);
+  if (found != nullptr) *found = stats;
   ImageReport report;
   report.width = writer.width();
   report.height = writer.height();
@@ -41,6 +42,7 @@ Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, 
   report.out_of_gamut_pixels = stats.outside.count;
   report.limited_pixels = stats.limited;
   report.bytes_written = writer.bytes_written();
+  if (options.skip) report.skipped = skip_stats(stats);
   return report;
 }
 

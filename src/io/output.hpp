@@ -23,10 +23,10 @@ using Refusal = std::function<std::optional<Error>(const LineStats&)>;
 /// what is converted within the input's data window.
 Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std::array<int, 2> offset);
 
-/// Runs a conversion and reports its size, counts and bytes.
+/// Runs a conversion and reports its size, counts and bytes; `found`, where asked for, gets all counts.
 /// Errors: those of run_conversion(), and the refusal.
 Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
-                            const ImageOptions& options, const Refusal& refusal);
+                            const ImageOptions& options, const Refusal& refusal, LineStats* found = nullptr);
 
 /// Runs `action`; whatever a library throws inside becomes an error that names `path`, for the library's
 /// boundary.

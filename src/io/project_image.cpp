@@ -89,7 +89,8 @@ class ProjectJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(source_.width());
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.color.set_width(width);
     float* const* rows = work.color.rows;
     project_line(work, strip, line);
     io::settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
@@ -105,11 +106,11 @@ class ProjectJob : public io::LineJob {
     }
     for (std::size_t k = 0; k < colors; ++k) {
       io::store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
-                    packed + writer_->channel_offset(k));
+                    packed + writer_->channel_offset(k, width));
     }
     for (const auto& [channel, plane] : passing_) {
-      std::memcpy(packed + writer_->channel_offset(channel), strip.row(plane, line),
-                  width * source_.planes()[plane].sample_bytes());
+      std::memcpy(packed + writer_->channel_offset(channel, width), strip.row(plane, line),
+                  strip.row_bytes[plane]);
     }
   }
 
@@ -121,7 +122,7 @@ class ProjectJob : public io::LineJob {
   }
 
   void project_line(Work& work, const Strip& strip, int line) const {
-    const std::size_t blocks = blocks_for(static_cast<std::size_t>(source_.width()));
+    const std::size_t blocks = blocks_for(static_cast<std::size_t>(strip.width));
     const std::size_t bands = source_.bands().count();
     for (std::size_t first = 0; first < blocks; first += tile_blocks()) {
       const std::size_t count = std::min(tile_blocks(), blocks - first);
@@ -196,6 +197,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
+  spec.tile = options.tile;
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(),

@@ -15,8 +15,9 @@
 
 namespace spectile::io {
 
-/// x0, y0, x1, y1, inclusive, in the coordinates of the data window.
-using Region = std::optional<std::array<int, 4>>;
+/// The part of an image to read: x0, y0, x1, y1, inclusive, in the coordinates of the data window; all of it
+/// where none.
+using Crop = std::optional<std::array<int, 4>>;
 
 /// Reads the lines of a region of one part. Of tiled parts the tiles that it touches are decoded, of others
 /// the lines.

@@ -81,7 +81,8 @@ class RelightJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(source_.width());
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.color.set_width(width);
     stage_.line(strip, line, work.color, stats);
     if (packed == nullptr) return;
     float* const* rows = work.color.rows;
@@ -101,11 +102,11 @@ class RelightJob : public io::LineJob {
     }
     for (std::size_t k = 0; k < colors; ++k) {
       io::store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
-                    packed + writer_->channel_offset(k));
+                    packed + writer_->channel_offset(k, width));
     }
     for (const auto& [channel, plane] : passing_) {
-      std::memcpy(packed + writer_->channel_offset(channel), strip.row(plane, line),
-                  width * source_.planes()[plane].sample_bytes());
+      std::memcpy(packed + writer_->channel_offset(channel, width), strip.row(plane, line),
+                  strip.row_bytes[plane]);
     }
   }
 
@@ -142,6 +143,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
+  spec.tile = options.tile;
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(), {"chromaticities", "colorInteropID", "spectileSeenUnder"});
   spec.text_attributes = io::method_attributes(*upsampler, options, false);

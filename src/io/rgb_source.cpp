@@ -31,7 +31,7 @@ Imf::PixelType read_type(Imf::PixelType stored) {
 }  // namespace
 
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
-                                                   int threads, const Region& region) {
+                                                   int threads, const Crop& region) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<RgbSource> source(new RgbSource);
@@ -135,6 +135,7 @@ void RgbSource::choose_passing(const std::string& prefix) {
                                    it.channel().xSampling, it.channel().ySampling));
       continue;
     }
+    if (plain == "A") alpha_ = planes_.size();
     planes_.push_back({name, it.channel().type});
     file_names_.push_back(name);
   }
@@ -191,7 +192,7 @@ Result<void> RgbSource::read_chroma(Strip& strip) {
 
 void RgbSource::float_rows(const kernels::KernelTable& kernels, const Strip& strip, int line,
                            float* const rgb[3]) const {
-  const auto w = static_cast<std::size_t>(width());
+  const auto w = static_cast<std::size_t>(strip.width);
   const std::size_t padded = blocks_for(w) * kLanesPerBlock;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::byte* row = strip.row(k, line);

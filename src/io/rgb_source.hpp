@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfRgbaFile.h>
 
 #include <memory>
+#include <optional>
 #include <spectile/result.hpp>
 #include <string>
 #include <vector>
@@ -22,16 +23,20 @@ class RgbSource {
   /// Finds R, G, B (or Y, or Y, RY, BY) of a layer, view or part, or the plain ones for an empty name.
   /// Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer,
-                                                 int threads, const Region& region = {});
+                                                 int threads, const Crop& region = {});
 
   /// That of the part, with the region as data window.
   const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }
+  /// That of the part as it is in the file.
+  const Imf::Header& whole() const { return input_->header(part_); }
   /// Of the region within the data window.
   std::array<int, 2> offset() const { return region_ ? region_->offset() : std::array<int, 2>{}; }
   int width() const { return width_of(header()); }
   int height() const { return height_of(header()); }
   const RgbSpace& color_space() const noexcept { return space_; }
   const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
+  /// The plane of the colours' own alpha, where they have one.
+  std::optional<std::size_t> alpha() const noexcept { return alpha_; }
   /// What cannot pass through, in words.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
@@ -58,6 +63,7 @@ class RgbSource {
   bool with_chroma_ = false;
   std::vector<PlaneSpec> planes_;
   std::vector<std::string> file_names_;
+  std::optional<std::size_t> alpha_;
   RgbSpace space_;
   std::vector<std::string> notes_;
 };

@@ -138,13 +138,14 @@ class Line {
   }
 
   Line& add(const ImageOptions& options) {
-    // An option that is added there has to be looked at here: this no longer compiles then. The last three
-    // change no bit.
-    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, progress] = options;
+    // An option that is added there has to be looked at here: this no longer compiles then. Threads,
+    // lanes, skipping and progress change no bit.
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, progress] = options;
     add("pixel", pixel == PixelType::kFloat ? "float" : "half");
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
     add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
+    add("tile", tile ? fmt::format("{}x{}", (*tile)[0], (*tile)[1]) : "none");
     return *this;
   }
 
@@ -201,6 +202,9 @@ bool is_before(const timespec& a, const timespec& b) {
 std::string settings_text(const UpsampleImageOptions& options) {
   Line line("upsample");
   line.add(options).add("store", options.store == Store::kCoefficients ? "coefficients" : "spectra");
+  line.add("mask", options.masking == Masking::kFile    ? quoted(options.mask)
+                   : options.masking == Masking::kAlpha ? "alpha"
+                                                        : "none");
   return std::move(line).text();
 }
 

@@ -39,7 +39,7 @@ std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std
 
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              std::optional<Quantity> wanted, int threads,
-                                                             const Region& region) {
+                                                             const Crop& region) {
   auto input = ExrInput::open(path, threads);
   if (!input) return input.error();
   std::unique_ptr<SpectralSource> source(new SpectralSource);
@@ -105,7 +105,7 @@ Result<std::shared_ptr<Strip>> SpectralSource::read(int first_line, int lines) {
 
 void SpectralSource::block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
                            float* block) const {
-  const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(width()) - x);
+  const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(strip.width) - x);
   for (std::size_t band = 0; band < bands_.count(); ++band, block += kLanesPerBlock) {
     const std::byte* row = strip.row(band, line);
     if (planes_[band].type == Imf::HALF) {

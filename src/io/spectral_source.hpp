@@ -31,7 +31,7 @@ class SpectralSource {
  public:
   /// Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, std::optional<Quantity> wanted,
-                                                      int threads, const Region& region = {});
+                                                      int threads, const Crop& region = {});
 
   /// That of the part, with the region as data window.
   const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "src/base/errors.hpp"
 
@@ -30,14 +31,32 @@ Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, 
   auto strip = std::make_shared<Strip>();
   strip->first_line = first_line;
   strip->lines = lines;
+  strip->width = width;
   for (const PlaneSpec& plane : planes) {
     const std::size_t stride = stride_of(plane, width);
     auto buffer = FloatBuffer::create(stride * static_cast<std::size_t>(lines) / sizeof(float));
     if (!buffer) return buffer.error();
     strip->planes.push_back(*std::move(buffer));
     strip->stride_bytes.push_back(stride);
+    strip->row_bytes.push_back(static_cast<std::size_t>(width) * plane.sample_bytes());
   }
   return strip;
+}
+
+Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, int first_line, int lines) {
+  std::vector<PlaneSpec> planes(from.planes.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].type = from.sample_bytes(i) == 2 ? Imf::HALF : Imf::FLOAT;
+  }
+  auto out = make_strip(planes, width, first_line, lines);
+  if (!out) return out.error();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const std::size_t skipped = static_cast<std::size_t>(x) * from.sample_bytes(i);
+    for (int line = first_line; line < first_line + lines; ++line) {
+      std::memcpy((*out)->row(i, line), from.row(i, line) + skipped, (*out)->row_bytes[i]);
+    }
+  }
+  return out;
 }
 
 int strip_lines(const Imf::Header& header, const std::vector<PlaneSpec>& planes, int at_least) {

@@ -25,8 +25,10 @@ struct PlaneSpec {
 struct Strip {
   int first_line = 0;
   int lines = 0;
+  int width = 0;  ///< pixels of a line
   std::vector<FloatBuffer> planes;
   std::vector<std::size_t> stride_bytes;
+  std::vector<std::size_t> row_bytes;  ///< of a line's pixels, without what pads it
 
   bool holds(int first, int count) const {
     return first >= first_line && first + count <= first_line + lines;
@@ -36,6 +38,9 @@ struct Strip {
     return reinterpret_cast<const std::byte*>(planes[plane].data()) +
            static_cast<std::size_t>(line - first_line) * stride_bytes[plane];
   }
+  std::size_t sample_bytes(std::size_t plane) const {
+    return row_bytes[plane] / static_cast<std::size_t>(width);
+  }
   std::byte* row(std::size_t plane, int line) {
     return const_cast<std::byte*>(static_cast<const Strip*>(this)->row(plane, line));
   }
@@ -44,6 +49,10 @@ struct Strip {
 /// Memory for a strip of `width` pixels a line. Errors: kOutOfMemory.
 Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, int width, int first_line,
                                           int lines);
+
+/// A copy of a strip's part, as a strip of its own: `width` pixels from pixel `x` on of its lines.
+/// Errors: kOutOfMemory.
+Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, int first_line, int lines);
 
 /// Lines worth reading at once: several of the input's chunks, some 16 MiB, never more than `height`.
 int strip_lines(const Imf::Header& header, const std::vector<PlaneSpec>& planes, int at_least);

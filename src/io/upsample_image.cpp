@@ -1,4 +1,5 @@
 // upsample_image: an RGB image becomes a spectral one, line by line.
+#include <chrono>
 #include <cstring>
 #include <spectile/image.hpp>
 #include <spectile/settings.hpp>
@@ -9,8 +10,10 @@
 #include "src/io/color_rows.hpp"
 #include "src/io/color_stage.hpp"
 #include "src/io/conversion.hpp"
+#include "src/io/line_solver.hpp"
 #include "src/io/method_attributes.hpp"
 #include "src/io/output.hpp"
+#include "src/io/pixel_mask.hpp"
 #include "src/io/rgb_source.hpp"
 #include "src/io/settings.hpp"
 #include "src/ops/method_rows.hpp"
@@ -22,24 +25,27 @@ namespace {
 using io::LineStats;
 using io::Strip;
 
+using Clock = std::chrono::steady_clock;
+
 /// Work space of one slot.
 struct Work {
   io::ColorLine rgb;
-  io::ColorLine coefficients;  // of no rows where they are the RGB
-  FloatBuffer scale;
-  std::vector<std::uint64_t> unsolved;
+  std::vector<std::uint8_t> masked;
+  io::LineSolver::Work solving;
   io::BandPacker::Work bands;
 };
 
 class UpsampleJob : public io::LineJob {
  public:
-  UpsampleJob(io::RgbSource& source, const Upsampler& upsampler, const rows::SampledRows& rows,
-              const UpsampleImageOptions& options, const kernels::KernelTable& kernels)
+  UpsampleJob(io::RgbSource& source, io::PixelMask& mask, const Upsampler& upsampler,
+              const rows::SampledRows& rows, const UpsampleImageOptions& options,
+              const kernels::KernelTable& kernels)
       : source_(source),
+        mask_(mask),
         upsampler_(upsampler),
         options_(options),
-        kernels_(kernels),
         stage_(source, upsampler, options, kernels),
+        solver_(stage_, upsampler, kernels, options.skip, pixels_of(source)),
         packer_(kernels, rows, options) {}
 
   const io::ColorStage& stage() const noexcept { return stage_; }
@@ -66,15 +72,10 @@ class UpsampleJob : public io::LineJob {
       auto rgb = io::ColorLine::create(source_.width());
       if (!rgb) return rgb.error();
       work.rgb = *std::move(rgb);
-      if (!rows::mixes_bases(upsampler_)) {
-        auto coefficients = io::ColorLine::create(source_.width());
-        if (!coefficients) return coefficients.error();
-        work.coefficients = *std::move(coefficients);
-        auto scale = FloatBuffer::create(work.rgb.padded);
-        if (!scale) return scale.error();
-        work.scale = *std::move(scale);
-        work.unsolved.resize(work.rgb.padded / kLanesPerBlock);
-      }
+      work.masked.resize(static_cast<std::size_t>(source_.width()));
+      auto solving = solver_.work(source_.width());
+      if (!solving) return solving.error();
+      work.solving = *std::move(solving);
       auto bands = packer_.work();
       if (!bands) return bands.error();
       work.bands = *std::move(bands);
@@ -84,63 +85,103 @@ class UpsampleJob : public io::LineJob {
   }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
-    return source_.read(first_line, lines);
+    auto strip = source_.read(first_line, lines);
+    if (strip) SPECTILE_TRY(mask_.read(**strip));
+    return strip;
   }
+
+  bool repeats() const override { return true; }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(source_.width());
-    stage_.line(strip, line, work.rgb, stats);
-    if (packed == nullptr) return;
-    pass_through(strip, line, packed);
-    const io::LineCoefficients line_of = solve(work);
-    if (options_.store == Store::kCoefficients) {
-      coefficients(line_of, width, packed);
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.rgb.set_width(width);
+    stage_.load(strip, line, work.rgb);
+    blacken(strip, line, work, stats);
+    const io::ColorStage::Settled settled = stage_.settle(line, work.rgb, width, stats);
+    if (packed == nullptr) {
+      if (settled.may_be_outside) stage_.limit(line, work.rgb, width, stats);
       return;
     }
-    stats.limited += packer_.line(work.bands, line_of, width, *writer_, source_.planes().size(), packed);
+    pass_through(strip, line, packed);
+    const io::LineCoefficients of =
+        solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, stats);
+    if (options_.store == Store::kCoefficients) {
+      coefficients(of, width, packed);
+    } else {
+      spectra(work, of, width, packed, stats);
+    }
   }
 
  private:
-  void pass_through(const Strip& strip, int line, std::byte* packed) const {
-    const auto& planes = source_.planes();
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      std::memcpy(packed + writer_->channel_offset(i), strip.row(i, line),
-                  static_cast<std::size_t>(source_.width()) * planes[i].sample_bytes());
+  static std::uint64_t pixels_of(const io::RgbSource& source) {
+    return static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  }
+
+  /// Masked pixels become black before anybody looks at what they are.
+  void blacken(const Strip& strip, int line, Work& work, LineStats& stats) const {
+    const std::uint64_t count = mask_.line(strip, line, work.masked.data());
+    if (count == 0) return;
+    stats.masked += count;
+    for (std::size_t x = 0; x < static_cast<std::size_t>(strip.width); ++x) {
+      float* const rgb[3] = {work.rgb.rows[0] + x, work.rgb.rows[1] + x, work.rgb.rows[2] + x};
+      if (work.masked[x] == 0) continue;
+      // Not black, or not a number.
+      if (!(*rgb[0] == 0 && *rgb[1] == 0 && *rgb[2] == 0)) ++stats.masked_colored;
+      for (float* const component : rgb) *component = 0;
     }
   }
 
-  io::LineCoefficients solve(Work& work) const {
-    float* const* rgb = work.rgb.rows;
-    if (rows::mixes_bases(upsampler_)) return {{rgb[0], rgb[1], rgb[2]}, nullptr};
-    float* const* c = work.coefficients.rows;
-    const float* const in[3] = {rgb[0], rgb[1], rgb[2]};
-    float* const scale = rows::has_scale(upsampler_) ? work.scale.data() : nullptr;
-    rows::solve(kernels_, upsampler_, in, {{c[0], c[1], c[2]}, scale}, work.unsolved.data(), work.rgb.padded);
-    return {{c[0], c[1], c[2]}, scale};
+  void spectra(Work& work, const io::LineCoefficients& of, std::size_t width, std::byte* packed,
+               LineStats& stats) const {
+    const std::size_t first = source_.planes().size();
+    auto start = Clock::now();
+    for (const io::ColorRun& run : work.solving.runs) {
+      const bool computed = run.kind == io::ColorRun::Kind::kComputed;
+      if (computed) {
+        packer_.run(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
+      } else {
+        packer_.fill(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
+      }
+      const auto end = Clock::now();
+      const double took = std::chrono::duration<double>(end - start).count();
+      start = end;
+      (computed ? stats.costs.computed_pixels : stats.costs.filled_pixels) += run.pixels;
+      (computed ? stats.costs.computing_seconds : stats.costs.filling_seconds) += took;
+    }
+    stats.limited += packer_.limited(work.bands, of, width);
+  }
+
+  void pass_through(const Strip& strip, int line, std::byte* packed) const {
+    const auto width = static_cast<std::size_t>(strip.width);
+    for (std::size_t i = 0; i < source_.planes().size(); ++i) {
+      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(i, line), strip.row_bytes[i]);
+    }
   }
 
   void coefficients(const io::LineCoefficients& of, std::size_t width, std::byte* packed) const {
     const std::size_t first = source_.planes().size();
     for (std::size_t k = 0; k < (of.scale == nullptr ? 3U : 4U); ++k) {
       const float* const row = k < 3 ? of.c[k] : of.scale;
-      std::memcpy(packed + writer_->channel_offset(first + k), row, width * sizeof(float));
+      std::memcpy(packed + writer_->channel_offset(first + k, width), row, width * sizeof(float));
     }
   }
 
   io::RgbSource& source_;
+  io::PixelMask& mask_;
   const Upsampler& upsampler_;
   const UpsampleImageOptions& options_;
-  const kernels::KernelTable& kernels_;
   const io::ExrWriter* writer_ = nullptr;
   std::vector<Work> works_;
   io::ColorStage stage_;
+  io::LineSolver solver_;
   io::BandPacker packer_;
 };
 
 Result<ImageReport> upsample(const std::string& input, const std::string& output,
                              const UpsampleImageOptions& options) {
   SPECTILE_TRY(io::check_distinct(input, output));
+  if (options.masking == Masking::kFile) SPECTILE_TRY(io::check_distinct(options.mask, output));
   const auto kernels = dispatch::active();
   if (!kernels) return kernels.error();
   const int threads = tiles::thread_count(options.threads);
@@ -149,13 +190,16 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
+  auto mask = io::PixelMask::open(options, **source, threads);
+  if (!mask) return mask.error();
   const auto rows = rows::SampledRows::over(*upsampler, upsampler->bands());
   if (!rows) return rows.error();
-  UpsampleJob job(**source, *upsampler, *rows, options, **kernels);
+  UpsampleJob job(**source, *mask, *upsampler, *rows, options, **kernels);
   io::ImageSpec spec;
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
+  spec.tile = options.tile;
   const bool coefficients = options.store == Store::kCoefficients;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
@@ -169,13 +213,19 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  auto converted = io::convert(job, **writer, slots, lines, options, refusal);
+  LineStats stats;
+  auto converted = io::convert(job, **writer, slots, lines, options, refusal, &stats);
   if (!converted) return converted.error();
   ImageReport report = *std::move(converted);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
   report.notes = (*source)->notes();
+  if (options.masking == Masking::kAlpha && stats.masked_colored > 0) {
+    report.notes.push_back(
+        fmt::format("{} pixel{} of alpha 0 with a colour: black as spectra; --mask none keeps them",
+                    stats.masked_colored, stats.masked_colored == 1 ? "" : "s"));
+  }
   return report;
 }
 

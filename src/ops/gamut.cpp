@@ -29,10 +29,12 @@ bool is_finite(const float* const rgb[3], std::size_t i) {
   return std::isfinite(rgb[0][i]) && std::isfinite(rgb[1][i]) && std::isfinite(rgb[2][i]);
 }
 
-GamutReport count_negative(const float* const rgb[3], std::size_t n) {
+GamutReport count_negative(const float* const rgb[3], std::size_t n, std::uint8_t* lanes_outside) {
   GamutReport report;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!is_finite(rgb, i) || !(rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0)) continue;
+    const bool outside = is_finite(rgb, i) && (rgb[0][i] < 0 || rgb[1][i] < 0 || rgb[2][i] < 0);
+    if (lanes_outside != nullptr) lanes_outside[i] = outside ? 1 : 0;
+    if (!outside) continue;
     if (report.outside == 0) report.first = static_cast<std::int64_t>(i);
     ++report.outside;
   }
@@ -40,8 +42,8 @@ GamutReport count_negative(const float* const rgb[3], std::size_t n) {
 }
 
 GamutReport limit_bases(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                        OutOfGamut policy, std::size_t n) {
-  const GamutReport report = count_negative(rgb, n);
+                        OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
+  const GamutReport report = count_negative(rgb, n, lanes_outside);
   if (report.outside == 0 || policy == OutOfGamut::kKeep) return report;
   for (std::size_t at = 0; at < n; at += kLanes) {
     float* const block[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
@@ -89,12 +91,13 @@ void move_lane(const Upsampler& upsampler, Group& group, std::size_t i, bool to_
 }
 
 void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
-                 float* const rgb[3], OutOfGamut policy, GamutReport& report) {
+                 float* const rgb[3], OutOfGamut policy, GamutReport& report, std::uint8_t* lanes_outside) {
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
   std::uint64_t outside = unsolvable(kernels, upsampler, group);
   for (std::uint64_t left = outside; left != 0; left &= left - 1) {
     const std::size_t lane = group.lane[std::countr_zero(left)];
     if (report.outside++ == 0) report.first = static_cast<std::int64_t>(lane);
+    if (lanes_outside != nullptr) lanes_outside[lane] = 1;
   }
   if (outside != 0 && policy == OutOfGamut::kClip) {
     for (int move = 0; outside != 0; ++move) {
@@ -112,8 +115,10 @@ void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
 }
 
 GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& upsampler,
-                          float* const rgb[3], OutOfGamut policy, std::size_t n) {
+                          float* const rgb[3], OutOfGamut policy, std::size_t n,
+                          std::uint8_t* lanes_outside) {
   GamutReport report;
+  if (lanes_outside != nullptr) std::fill_n(lanes_outside, n, std::uint8_t{0});
   const float highest =
       upsampler.quantity() == Quantity::kReflectance ? 1.0F : std::numeric_limits<float>::infinity();
   Group group;
@@ -124,18 +129,18 @@ GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& 
     if (!everywhere && !beyond(rgb[0][i]) && !beyond(rgb[1][i]) && !beyond(rgb[2][i])) continue;
     for (std::size_t k = 0; k < 3; ++k) group.rgb[k][group.count] = rgb[k][i];
     group.lane[group.count++] = i;
-    if (group.count == kLanes) limit_group(kernels, upsampler, group, rgb, policy, report);
+    if (group.count == kLanes) limit_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
   }
-  if (group.count > 0) limit_group(kernels, upsampler, group, rgb, policy, report);
+  if (group.count > 0) limit_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
   return report;
 }
 
 }  // namespace
 
 GamutReport limit_gamut(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                        OutOfGamut policy, std::size_t n) {
-  return mixes_bases(upsampler) ? limit_bases(kernels, upsampler, rgb, policy, n)
-                                : limit_sigmoid(kernels, upsampler, rgb, policy, n);
+                        OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
+  return mixes_bases(upsampler) ? limit_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
+                                : limit_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
 }
 
 }  // namespace rows

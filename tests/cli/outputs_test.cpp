@@ -254,7 +254,7 @@ TEST_F(Outputs, SameBytesWhateverRunsThem) {
       const std::vector<std::string> how = {
           "--isa",     isa,
           "--threads", way % 2 == 0 ? "1" : "3",
-          "--tile",    way % 3 == 0 ? "64" : way % 3 == 1 ? "100" : "65536"};
+          "--lanes",   way % 3 == 0 ? "64" : way % 3 == 1 ? "100" : "65536"};
       ++way;
       for (const auto& [arguments, bytes] : {std::pair{up, expected}, {down, expected_back}}) {
         // Into another file, so that the spectral one stays the input.

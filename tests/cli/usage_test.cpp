@@ -145,8 +145,8 @@ TEST_F(Usage, WrongOptionsAreWrongUsage) {
       {"--compression", "lzma"}, {"--compression", "zip:77"}, {"--pixel", "double"},
       {"--nonfinite", "ignore"}, {"--negative", "flip"},      {"--bands", "700:400:5"},
       {"--bands", "400:700:7"},  {"--bands", "few"},          {"--bands", ""},
-      {"--threads", "-1"},       {"--threads", "many"},       {"--tile", "0"},
-      {"--tile", "63"},          {"--isa", "avx1024"}};
+      {"--threads", "-1"},       {"--threads", "many"},       {"--lanes", "0"},
+      {"--lanes", "63"},         {"--isa", "avx1024"}};
   for (const auto& options : wrong) {
     std::vector<std::string> arguments = {"upsample", good_, "-o", out_};
     arguments.insert(arguments.end(), options.begin(), options.end());

@@ -1,0 +1,42 @@
+// PixelMask: which pixels of an image need no spectra, by its own alpha or by another image.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <spectile/image.hpp>
+#include <string>
+
+#include "src/io/exr_input.hpp"
+#include "src/io/region.hpp"
+#include "src/io/rgb_source.hpp"
+#include "src/io/strips.hpp"
+
+namespace spectile::io {
+
+class PixelMask {
+ public:
+  /// Errors: kBadArgument where a file is asked for without a name, and the other way round; for that file,
+  /// those of ExrInput::open(), kBadFile where it has another size or no channel to take.
+  static Result<PixelMask> open(const UpsampleImageOptions& options, const RgbSource& source, int threads);
+
+  /// Adds the mask's plane to a strip of the source, where it has one of its own. Errors: kBadFile,
+  /// kOutOfMemory.
+  Result<void> read(Strip& strip);
+
+  /// Sets masked[x] to 1 or 0 for each pixel of a line, and returns how many are.
+  std::uint64_t line(const Strip& strip, int line, std::uint8_t* masked) const;
+
+ private:
+  Result<void> choose(const RgbSource& source);
+  Result<void> crop(const RgbSource& source);
+
+  std::optional<std::size_t> plane_;  // of strips; none where no pixel is masked
+  Imf::PixelType type_ = Imf::FLOAT;
+  std::unique_ptr<ExrInput> file_;
+  std::optional<RegionReader> region_;  // where the source reads a part only
+  int part_ = 0;
+  std::string channel_;
+};
+
+}  // namespace spectile::io
