@@ -103,6 +103,17 @@ TEST(PlanFile, APublishedLightIsKeptByName) {
   EXPECT_GT(text.find("\"spectrum\""), text.find("\"name\": \"A\""));
 }
 
+TEST(PlanFile, ALightThatOnlyHasAPublishedNameKeepsItsSpectrum) {
+  Plan plan = odd_plan();
+  const auto published = *illuminant("A");
+  std::vector<double> values(published.values().begin(), published.values().end());
+  values.at(50) = std::nextafter(values.at(50), 0.0);
+  plan.lights[1].spectrum = *MeasuredSpectrum::from_samples(published.wavelengths_nm(), values);
+  const auto back = parse_plan(plan_to_json(plan), "text");
+  ASSERT_TRUE(back) << back.error().message;
+  expect_same(plan, *back);
+}
+
 TEST(PlanFile, WhatThePlannerMakesComesBack) {
   PlannerOptions options;
   options.lights = {{"FL11", *named_spectrum("FL11")}, {"candle", *named_spectrum("blackbody:1900")}};
