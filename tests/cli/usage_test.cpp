@@ -146,7 +146,7 @@ TEST_F(Usage, WrongOptionsAreWrongUsage) {
       {"--nonfinite", "ignore"}, {"--negative", "flip"},      {"--bands", "700:400:5"},
       {"--bands", "400:700:7"},  {"--bands", "few"},          {"--bands", ""},
       {"--threads", "-1"},       {"--threads", "many"},       {"--lanes", "0"},
-      {"--lanes", "63"},         {"--isa", "avx1024"}};
+      {"--tile", "64", "5000"},  {"--lanes", "63"},           {"--isa", "avx1024"}};
   for (const auto& options : wrong) {
     std::vector<std::string> arguments = {"upsample", good_, "-o", out_};
     arguments.insert(arguments.end(), options.begin(), options.end());

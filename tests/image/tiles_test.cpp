@@ -169,6 +169,16 @@ TEST_F(Tiles, SameOnesAreReused) {
   EXPECT_EQ(report->skipped.chunks_reused, 6U);
 }
 
+TEST_F(Tiles, SameBytesInAnotherShapeAreAnotherTile) {
+  // The tiles at the right and at the bottom are of 32 x 64 and 64 x 32 pixels of one grey.
+  test::Picture picture = test::blank(96, 96);
+  for (const char* name : {"R", "G", "B"}) picture.add(name, Imf::HALF, [](int, int) { return 0.5; });
+  test::write_scanlines(in_, picture);
+  UpsampleImageOptions options;
+  options.method = Method::kSmits;  // whose white is not the same in every band
+  check(upsampling(options));
+}
+
 TEST_F(Tiles, FirstBadPixelIsThatOfTheImage) {
   test::Picture picture = test::blank(100, 40);
   test::add_rgb_noise(picture, Imf::HALF);
