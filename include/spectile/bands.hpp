@@ -11,6 +11,8 @@
 
 namespace spectile {
 
+struct Plan;
+
 /// One wavelength interval. Units: nm; lower < centre < upper.
 struct Band {
   double lower_nm = 0;
@@ -46,23 +48,37 @@ class Bands {
   /// Errors: kBadArgument with the text quoted.
   static Result<Bands> parse(std::string_view text);
 
+  /// Those of a plan, which they carry along: projections weigh them with the plan's sensor and the emission
+  /// of one of its lights. Where the plan's samples are values at wavelengths, so are these bands', and their
+  /// edges, halfway between neighbours, only say which part of the spectrum each stands for.
+  /// Errors: kBadArgument for a plan without wavelengths, of lists that differ in length, or as for
+  /// from_list.
+  static Result<Bands> of_plan(const Plan& plan);
+
   static constexpr std::size_t kMaxBands = 4096;
 
   std::size_t count() const noexcept { return bands_->size(); }
   const Band& operator[](std::size_t i) const noexcept { return (*bands_)[i]; }
   std::span<const Band> list() const noexcept { return *bands_; }
 
+  /// The plan that they are of; null for others.
+  const Plan* plan() const noexcept { return plan_.get(); }
+  /// Whether samples are values at the centres, as some plans' are, and not averages.
+  bool are_points() const noexcept;
+
   /// "400:700:5", or for other lists the count and the range: "36 bands from 375 to 735 nm".
   std::string description() const;
 
-  /// Equal when every edge and centre is.
+  /// Equal when every edge and centre is, and the plans' weights are where there are plans.
   friend bool operator==(const Bands& a, const Bands& b) noexcept {
-    return a.bands_ == b.bands_ || *a.bands_ == *b.bands_;
+    return (a.bands_ == b.bands_ || *a.bands_ == *b.bands_) && (a.plan_ == b.plan_ || same_plan(a, b));
   }
 
  private:
   explicit Bands(std::vector<Band> bands);
+  static bool same_plan(const Bands& a, const Bands& b) noexcept;
   std::shared_ptr<const std::vector<Band>> bands_;
+  std::shared_ptr<const Plan> plan_;
 };
 
 }  // namespace spectile

@@ -14,7 +14,8 @@ namespace spectile {
 /// A plan as JSON text: {"wavelengths_nm": [..], "sensor": {"x": [..], "y": [..], "z": [..]}, "illuminants":
 /// [{"name": "D65", "emission": [..]}], "observer": "1931", "promise": {..}}. A light whose name
 /// illuminant() knows, with that spectrum, has no spectrum of its own there; others have "spectrum":
-/// {"wavelengths_nm": [..], "values": [..]}. Numbers come back to the bit.
+/// {"wavelengths_nm": [..], "values": [..]}. Plans of bands have "bands_nm": [[lower, upper], ..] too. Numbers
+/// come back to the bit.
 std::string plan_to_json(const Plan& plan);
 
 /// Reads what plan_to_json() writes; what it does not know is passed over, promises may be missing.
@@ -25,6 +26,10 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source);
 
 /// The same from a file. Errors: kNoPermission too.
 Result<Plan> load_plan(const std::string& path);
+
+/// Bands from what a user writes: as Bands::parse() takes them, or the path of a plan. Errors: those of
+/// Bands::parse(), load_plan() and Bands::of_plan().
+Result<Bands> find_bands(const std::string& text);
 
 /// Writes a plan, whole or not at all. Errors: kNoPermission, kNoSpace, kBadFile; kBadArgument for a plan
 /// that parse_plan() would refuse.

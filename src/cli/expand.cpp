@@ -22,7 +22,7 @@ int run(const Arguments& a) {
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
   if (const int bad = apply_region(a.batch, options)) return bad;
   if (!a.bands.empty()) {
-    const auto bands = Bands::parse(a.bands);
+    const auto bands = find_bands(a.bands);
     if (!bands) return complain(bands.error());
     options.bands = *bands;
   }

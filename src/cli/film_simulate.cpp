@@ -78,7 +78,7 @@ int film_options(const Arguments& a, FilmOptions& o) {
   o.negative_weights = !a.splat && filter->has_negative_lobes();
   o.input = a.input == "bands" ? FilmInput::kBands : FilmInput::kWavelengths;
   if (a.bands) {
-    const auto bands = Bands::parse(*a.bands);
+    const auto bands = find_bands(*a.bands);
     if (!bands) return usage(bands.error().message);
     o.bands = *bands;
   }

@@ -78,7 +78,7 @@ int apply_method_options(const MethodArguments& a, MethodOptions& out) {
   const auto quantity = parse_quantity(a.quantity);
   if (!quantity) return complain(quantity.error());
   out.quantity = *quantity;
-  const auto bands = Bands::parse(a.bands);
+  const auto bands = find_bands(a.bands);
   if (!bands) return complain(bands.error());
   out.bands = *bands;
   if (!a.light.empty()) {

@@ -25,6 +25,7 @@ struct Arguments {
   std::string layer;
   std::string nonfinite = "stop";
   int bounces = 1;
+  std::string sample = "points";
   std::optional<std::size_t> bands;
   std::optional<double> max_error;
   std::string observer = "1931";
@@ -170,6 +171,7 @@ int run(const Arguments& a) {
   Wanted wanted;
   PlannerOptions& o = wanted.options;
   o.bounces = a.bounces;
+  o.sampling = a.sample == "bands" ? PlanSampling::kBands : PlanSampling::kPoints;
   o.bands = a.bands;
   o.max_error = a.max_error;
   o.observer = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
@@ -229,6 +231,13 @@ void add_plan(CLI::App& app, int& exit) {
       ->add_option("--bounces", a->bounces,
                    "Light that was reflected up to so many times, 1 to 4, keeps its colour too")
       ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command
+      ->add_option("--sample", a->sample,
+                   "What a sample is: points, a reflectance's value at a wavelength, as renderers that trace "
+                   "wavelengths take it; or bands, its average over a band, as upsample's files hold it, "
+                   "which is several times as exact for light that is reflected once")
+      ->check(CLI::IsMember({"points", "bands"}))
       ->capture_default_str();
   command->add_option("--bands", a->bands, "Choose so many wavelengths, 3 to 64")
       ->check(CLI::Range(std::size_t{3}, std::size_t{64}));

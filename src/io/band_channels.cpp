@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/io/plan_attribute.hpp"
 #include "src/io/spectral_layout.hpp"
 
 namespace spectile::io {
@@ -35,12 +36,14 @@ void add_band_channels(std::vector<ChannelSpec>& channels, const Bands& bands, Q
 }
 
 std::vector<std::string> layout_attribute_names() {
-  return {"spectralLayoutVersion", "emissiveUnits"};
+  return {"spectralLayoutVersion", "emissiveUnits", kPlanAttribute};
 }
 
-void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity) {
+void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity,
+                           const Bands& bands) {
   texts.emplace_back("spectralLayoutVersion", "1.0");
   if (quantity == Quantity::kIlluminant) texts.emplace_back("emissiveUnits", "W.m^-2.sr^-1");
+  add_plan_attribute(texts, bands);
 }
 
 float largest_magnitude(const float* row, std::size_t n) {

@@ -20,8 +20,9 @@ void add_band_channels(std::vector<ChannelSpec>& channels, const Bands& bands, Q
 
 /// Names of the layout's own attributes.
 std::vector<std::string> layout_attribute_names();
-/// Appends the layout's own attributes: name and text.
-void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity);
+/// Appends the layout's own attributes, and the plan of the bands where they have one: name and text.
+void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity,
+                           const Bands& bands);
 
 /// Coefficients of a line, at multiples of 64 bytes and readable up to whole blocks.
 struct LineCoefficients {

@@ -145,7 +145,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
     made.light = NamedLight{io::light_name_of((*source)->header()), *upsampler.options().light};
   }
   spec.text_attributes = io::method_attributes(upsampler, made, false);
-  io::add_layout_attributes(spec.text_attributes, upsampler.quantity());
+  io::add_layout_attributes(spec.text_attributes, upsampler.quantity(), bands);
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);

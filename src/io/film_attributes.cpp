@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/film_channels.hpp"
+#include "src/io/plan_attribute.hpp"
 #include "src/ops/film_responses.hpp"
 
 namespace spectile::io {
@@ -155,6 +156,7 @@ Texts film_attributes(const FilmAccess::State& s, const std::string& progress) {
     edges.insert(edges.end(), {band.lower_nm, band.centre_nm, band.upper_nm});
   }
   add("spectileFilmBands", joined(edges));
+  add_plan_attribute(out, o.bands);
   add("spectileFilmXyz", !o.xyz ? "no" : *o.xyz == Observer::kCie1964 ? "1964" : "1931");
   add("spectileFilmResponses", fmt::to_string(s.responses.size()));
   for (std::size_t i = 0; i < s.responses.size(); ++i) {
@@ -213,7 +215,9 @@ Result<FilmDescription> film_of(const Imf::Header& header, const std::string& pa
   }
   const auto bands = Bands::from_list(std::move(list));
   if (bands && edges->size() % 3 == 0) {
-    o.bands = *bands;
+    auto planned = with_plan(header, *bands, path);
+    if (!planned) return planned.error();
+    o.bands = *std::move(planned);
   } else {
     reader.fail("spectileFilmBands");
   }

@@ -126,7 +126,9 @@ Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t s
   Texts texts;
   if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
   if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
-  if (layer == FilmLayer::kSpectrum) io::add_layout_attributes(texts, Quantity::kIlluminant);
+  if (layer == FilmLayer::kSpectrum) {
+    io::add_layout_attributes(texts, Quantity::kIlluminant, film.options().bands);
+  }
   const Picture picture = {development->plane(0), development->planes(), development->stride(),
                            development->stride() * static_cast<std::size_t>(development->height())};
   auto report = write(picture, film.options(), channels_of(film, layer, options.pixel), texts, path, options);

@@ -10,6 +10,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/output.hpp"
+#include "src/io/plan_attribute.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/tiles.hpp"
 #include "src/reference/half.hpp"
@@ -101,7 +102,9 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
     info.quantity = spectral->quantity;
     const auto bands = Bands::from_centres(spectral->centres_nm);
     if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
-    info.bands = *bands;
+    const auto planned = io::with_plan(header, *bands, path);
+    if (!planned) return planned.error();
+    info.bands = *planned;
   }
   if (pixel &&
       ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {

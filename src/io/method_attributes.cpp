@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "src/base/errors.hpp"
+#include "src/io/plan_attribute.hpp"
 #include "src/ops/method_rows.hpp"
 
 namespace spectile::io {
@@ -71,8 +72,9 @@ std::vector<std::string> coefficient_channels(const Upsampler& upsampler) {
 }
 
 std::vector<std::string> method_attribute_names() {
-  return {"spectileMethod", "spectileLight",        "spectileObserver",     "spectileQuantity",
-          "spectileBands",  "spectileLightSamples", "spectileKeepNegative", "spectileCoefficients"};
+  return {"spectileMethod",       "spectileLight",        "spectileObserver",
+          "spectileQuantity",     "spectileBands",        "spectileLightSamples",
+          "spectileKeepNegative", "spectileCoefficients", kPlanAttribute};
 }
 
 std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampler& upsampler,
@@ -83,6 +85,7 @@ std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampl
   out.emplace_back("spectileLight", options.light ? options.light->name : "D65");
   out.emplace_back("spectileObserver", upsampler.options().observer == Observer::kCie1964 ? "1964" : "1931");
   if (!coefficients) return out;
+  add_plan_attribute(out, upsampler.bands());
   out.emplace_back("spectileCoefficients", kLayout);
   out.emplace_back("spectileQuantity", std::string(to_string(upsampler.quantity())));
   out.emplace_back("spectileBands", bands_text(upsampler.bands()));
@@ -107,8 +110,10 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   // The default bands keep their own identity, for which tables are at hand.
   const Bands usual;
   const bool is_usual = std::equal(list.begin(), list.end(), usual.list().begin(), usual.list().end());
-  const auto bands = is_usual ? Result<Bands>(usual) : Bands::from_list(std::move(list));
-  if (!bands) return damaged(path, "spectileBands");
+  const auto stored = is_usual ? Result<Bands>(usual) : Bands::from_list(std::move(list));
+  if (!stored) return damaged(path, "spectileBands");
+  const auto bands = with_plan(header, *stored, path);
+  if (!bands) return bands.error();
   UpsamplerOptions options;
   const auto observer = text_of(header, "spectileObserver");
   if (observer != "1931" && observer != "1964") return damaged(path, "spectileObserver");

@@ -1,6 +1,7 @@
 // Plans as JSON text.
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <spectile/plan_file.hpp>
@@ -89,6 +90,18 @@ std::string flaw(const Plan& plan) {
       return fmt::format("the wavelengths do not ascend: {} nm comes after {} nm", nm,
                          plan.wavelengths_nm[k - 1]);
     }
+  }
+  if (!plan.bands.empty()) {
+    if (plan.bands.size() != count) {
+      return fmt::format("there are {} bands for {} wavelengths", plan.bands.size(), count);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (plan.bands[k].centre_nm != plan.wavelengths_nm[k]) {
+        return fmt::format("a band around {} nm belongs to the wavelength {} nm", plan.bands[k].centre_nm,
+                           plan.wavelengths_nm[k]);
+      }
+    }
+    if (const auto bands = Bands::from_list(plan.bands); !bands) return bands.error().message;
   }
   if (plan.sensor.size() != count) {
     return fmt::format("the sensor has {} weights for {} wavelengths", plan.sensor.size(), count);
@@ -213,6 +226,22 @@ PlanLight light_from(const Json& json) {
   return {text, std::move(emission), *std::move(samples)};
 }
 
+/// [[lower, upper], ...], one for each wavelength.
+std::vector<Band> bands_from(const Json& json, const std::vector<double>& wavelengths_nm) {
+  if (!json.is_array() || json.size() != wavelengths_nm.size()) {
+    throw Refused(fmt::format("\"bands_nm\" is no list of {} bands", wavelengths_nm.size()));
+  }
+  std::vector<Band> out;
+  for (std::size_t k = 0; k < wavelengths_nm.size(); ++k) {
+    const Json& ends = json[k];
+    if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
+      throw Refused("\"bands_nm\" holds what is no pair of wavelengths");
+    }
+    out.push_back({ends[0].get<double>(), wavelengths_nm[k], ends[1].get<double>()});
+  }
+  return out;
+}
+
 Plan plan_from(const Json& json) {
   const std::string where = "the plan";
   Plan plan;
@@ -227,6 +256,7 @@ Plan plan_from(const Json& json) {
     }
     for (std::size_t k = 0; k < weights.size(); ++k) plan.sensor[k][c] = weights[k];
   }
+  if (json.contains("bands_nm")) plan.bands = bands_from(json["bands_nm"], plan.wavelengths_nm);
   const Json& lights = member(json, "illuminants", where);
   if (!lights.is_array()) throw Refused("\"illuminants\" is no list");
   if (lights.size() > kMostLights) {
@@ -272,7 +302,9 @@ std::string json_error(const std::string& what) {
 }  // namespace
 
 std::string plan_to_json(const Plan& plan) {
-  Json out = {{"wavelengths_nm", plan.wavelengths_nm}, {"sensor", Json::object()}};
+  Json out = {{"wavelengths_nm", plan.wavelengths_nm}};
+  for (const Band& band : plan.bands) out["bands_nm"].push_back({band.lower_nm, band.upper_nm});
+  out["sensor"] = Json::object();
   for (std::size_t c = 0; c < 3; ++c) {
     Json& weights = out["sensor"][kSensorNames[c]] = Json::array();
     for (const auto& of : plan.sensor) weights.push_back(of[c]);
@@ -306,6 +338,17 @@ Result<Plan> load_plan(const std::string& path) {
   const auto file = io::read_text_file(path);
   if (!file) return file.error();
   return parse_plan(*file->text, path);
+}
+
+Result<Bands> find_bands(const std::string& text) {
+  auto bands = Bands::parse(text);
+  if (bands) return bands;
+  const bool like_a_path = text.find('/') != std::string::npos || text.ends_with(".json");
+  std::error_code error;
+  if (!like_a_path && !std::filesystem::exists(text, error)) return bands;
+  const auto plan = load_plan(text);
+  if (!plan) return plan.error();
+  return Bands::of_plan(*plan);
 }
 
 Result<void> save_plan(const Plan& plan, const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <spectile/plan.hpp>
 #include <spectile/settings.hpp>
 
 #include "src/base/errors.hpp"
@@ -60,6 +61,15 @@ std::string text_of(const MeasuredSpectrum& spectrum) {
 std::string text_of(const Bands& bands) {
   Digest digest;
   for (const Band& band : bands.list()) digest.add(band.lower_nm).add(band.centre_nm).add(band.upper_nm);
+  if (const Plan* const plan = bands.plan()) {
+    digest.add(bands.are_points() ? 1 : 0).add(plan->observer == Observer::kCie1964 ? 1964 : 1931);
+    for (const auto& weights : plan->sensor) {
+      for (const double v : weights) digest.add(v);
+    }
+    for (const PlanLight& light : plan->lights) {
+      for (const double v : light.emission) digest.add(v);
+    }
+  }
   return fmt::format("{} from {} to {} nm #{}", bands.count(), bands[0].lower_nm,
                      bands[bands.count() - 1].upper_nm, digest.text());
 }

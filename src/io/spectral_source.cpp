@@ -9,6 +9,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/coefficient_source.hpp"
+#include "src/io/plan_attribute.hpp"
 #include "src/io/spectral_layout.hpp"
 
 namespace spectile::io {
@@ -62,7 +63,9 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   }
   const auto bands = Bands::from_centres(channels->centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
-  source->bands_ = *bands;
+  auto planned = with_plan(source->input_->header(source->part_), *bands, path);
+  if (!planned) return planned.error();
+  source->bands_ = *std::move(planned);
   source->channels_ = *std::move(channels);
 
   const Imf::ChannelList& list = source->header().channels();

@@ -13,6 +13,7 @@
 #include "src/io/coefficient_source.hpp"
 #include "src/io/evaluators.hpp"
 #include "src/io/output.hpp"
+#include "src/io/plan_attribute.hpp"
 #include "src/io/spectral_source.hpp"
 #include "src/ops/shape.hpp"
 #include "src/ops/tiles.hpp"
@@ -137,7 +138,9 @@ Result<void> SpectralTexture::Image::choose_channels(const io::SpectralChannels&
   quantity_ = channels.quantity;
   const auto bands = Bands::from_centres(channels.centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path(), bands.error().message);
-  bands_ = *bands;
+  auto planned = io::with_plan(input_->header(part_), *bands, path());
+  if (!planned) return planned.error();
+  bands_ = *std::move(planned);
   for (const std::string& name : channels.names) {
     const Imf::Channel& channel = input_->header(part_).channels()[name.c_str()];
     if (channel.xSampling != 1 || channel.ySampling != 1) {

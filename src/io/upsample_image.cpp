@@ -204,7 +204,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
   spec.text_attributes = io::method_attributes(*upsampler, options, coefficients);
-  if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity);
+  if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity, options.bands);
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);

@@ -97,8 +97,10 @@ Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptio
   // The published bases have an oracle of their own; the exact ones are double already.
   const bool published = options.method == Method::kSmits || options.method == Method::kSmits1999;
   const auto basis = upsampler.basis();
-  out.basis = published ? oracle::smits_basis(options.method, options.quantity, options.bands)
-                        : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
+  // The oracle averages over bands; a plan's points are held to their own tables in double.
+  out.basis = published && options.bands.plan() == nullptr
+                  ? oracle::smits_basis(options.method, options.quantity, options.bands)
+                  : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
   for (const auto& band : out.basis) {
     for (const double v : band) out.largest_basis = std::max(out.largest_basis, std::abs(v));
   }
@@ -163,7 +165,7 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
       std::array<double, 3> size{};
       for (std::size_t b = 0; b < bands; ++b) {
         spectrum[b] = block[b * kLanesPerBlock + i];
-        for (std::size_t k = 0; k < 3; ++k) size[k] += oracle_weights[b][k] * std::abs(spectrum[b]);
+        for (std::size_t k = 0; k < 3; ++k) size[k] += std::abs(oracle_weights[b][k] * spectrum[b]);
       }
       const auto truth = oracle::project(oracle_weights, spectrum);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -243,8 +245,12 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
   const auto projector =
       light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
   if (!projector) return projector.error();
+  // A plan's weights are given; the oracle integrates those of other bands itself.
+  const auto own = projector->weights();
   const auto weights =
-      oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
+      source.bands().plan() != nullptr
+          ? std::vector<std::array<double, 3>>(own.begin(), own.end())
+          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
   VerifyReport report;
   report.isa = kernels.name;
   report.what =

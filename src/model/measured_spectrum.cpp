@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
+#include "src/model/planned_bands.hpp"
 
 namespace spectile {
 
@@ -85,8 +86,8 @@ double MeasuredSpectrum::integral(double first_nm, double last_nm) const noexcep
 std::vector<float> MeasuredSpectrum::average_over(const Bands& bands) const {
   std::vector<float> averages;
   averages.reserve(bands.count());
-  for (const Band& band : bands.list()) {
-    averages.push_back(static_cast<float>(integral(band.lower_nm, band.upper_nm) / band.width_nm()));
+  for (std::size_t b = 0; b < bands.count(); ++b) {
+    averages.push_back(static_cast<float>(sample_in(*this, bands, b)));
   }
   return averages;
 }

@@ -4,6 +4,7 @@
 
 #include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/model/planned_bands.hpp"
 #include "src/ops/color_matrix.hpp"
 #include "src/ops/shape.hpp"
 #include "src/ops/tiles.hpp"
@@ -35,6 +36,20 @@ Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
   return inverse(rgb_to_xyz(kRec709, scaled));
 }
 
+/// A plan's weights: its sensor, times the emission of a light where there is one.
+Result<std::vector<std::array<double, 3>>> planned_weights(const Plan& plan, const MeasuredSpectrum* light,
+                                                           Observer observer) {
+  SPECTILE_TRY(check_observer(plan, observer));
+  std::vector<std::array<double, 3>> out = plan.sensor;
+  if (light == nullptr) return out;
+  const auto index = planned_light(plan, *light);
+  if (!index) return index.error();
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    for (double& v : out[b]) v *= plan.lights[*index].emission[b];
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light,
@@ -48,8 +63,22 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
   Projector projector;
   projector.bands_ = bands;
   projector.observer_ = observer;
+  if (bands.plan() != nullptr) {
+    for (std::size_t k = 0; k < 3; ++k) d65_white[k] = product_integral(functions[k], d65, 0, 1000);
+    // A plan for D65 has its white on its own.
+    if (const auto own = planned_weights(*bands.plan(), &d65, observer)) {
+      d65_white = {};
+      for (const auto& w : *own) {
+        for (std::size_t k = 0; k < 3; ++k) d65_white[k] += w[k];
+      }
+    }
+    auto weights = planned_weights(*bands.plan(), light, observer);
+    if (!weights) return weights.error();
+    projector.weights_ = *std::move(weights);
+  }
   double luminance = 0;
-  for (const Band& band : bands.list()) {
+  for (const auto& w : projector.weights_) luminance += w[1];
+  for (const Band& band : bands.plan() == nullptr ? bands.list() : std::span<const Band>()) {
     std::array<double, 3> w{};
     for (std::size_t k = 0; k < 3; ++k) {
       w[k] = light == nullptr ? functions[k].integral(band.lower_nm, band.upper_nm)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/data/tables.hpp"
+#include "src/model/planned_bands.hpp"
 #include "src/ops/quadratic_program.hpp"
 
 namespace spectile {
@@ -80,9 +81,7 @@ std::optional<BasisTable> primary_decomposition(const Bands& bands, const Workin
     const auto spectrum = MeasuredSpectrum::from_samples(data::kMallettYuksel.wavelengths_nm,
                                                          data::kMallettYuksel.primaries[k]);
     if (!spectrum) return {};
-    for (const Band& band : bands.list()) {
-      published[k].push_back(spectrum->integral(band.lower_nm, band.upper_nm) / band.width_nm());
-    }
+    for (std::size_t b = 0; b < n; ++b) published[k].push_back(sample_in(*spectrum, bands, b));
     add_roughness(bands, k * n, published[k], program.squares);
     for (std::size_t b = 0; b < n; ++b) {
       program.squares.push_back({{{k * n + b, kCloseness}}, kCloseness * published[k][b]});

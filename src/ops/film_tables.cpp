@@ -18,6 +18,13 @@ constexpr double kProfileError = 5e-7;
 }  // namespace
 
 Result<void> make_film_buckets(FilmAccess::State& s) {
+  if (s.options.bands.are_points()) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "a film fed with wavelengths keeps averages over bands; the plan's samples are values at "
+        "{} wavelengths, which a film fed with bands takes",
+        s.options.bands.count());
+  }
   std::vector<float> edges;
   for (const Band& band : s.options.bands.list()) {
     const auto lower = static_cast<float>(band.lower_nm);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/model/planned_bands.hpp"
 #include "src/ops/method_rows.hpp"
 #include "src/ops/sigmoid_model.hpp"
 #include "src/ops/working_space.hpp"
@@ -40,6 +41,22 @@ double between(const Place& place, double first, double next) {
 float lambda_of(const SigmoidModel& model, double wavelength_nm) {
   return std::clamp(static_cast<float>(sigmoid_lambda(wavelength_nm)), model.lowest_lambda,
                     model.highest_lambda);
+}
+
+/// A light of luminance 1 in bands that need not be those the method was made for. A plan's emission values
+/// are on a scale of their own, where luminance is 1 over the plan's.
+Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsampler,
+                                     const MeasuredSpectrum& light) {
+  const UpsamplerOptions& made = upsampler.options();
+  const bool planned = bands.plan() != nullptr || upsampler.bands().plan() != nullptr;
+  const auto space = working_space(planned ? bands : upsampler.bands(), upsampler.quantity(), made.primaries,
+                                   light, made.observer);
+  if (!space) return space.error();
+  if (planned) return space->white;
+  auto out = light_samples(light, bands);
+  if (!out) return out;
+  for (double& v : *out) v /= space->luminance;
+  return out;
 }
 
 }  // namespace
@@ -96,15 +113,15 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
   } else {
     const UpsamplerOptions& made = upsampler.options();
     const MeasuredSpectrum light = made.light ? *made.light : *illuminant("D65");
-    const auto space =
-        working_space(upsampler.bands(), upsampler.quantity(), made.primaries, light, made.observer);
-    if (!space) return space.error();
+    std::vector<double> white(bands.count(), 1.0);
+    if (out->white_) {
+      auto samples = white_in(bands, upsampler, light);
+      if (!samples) return samples.error();
+      white = *std::move(samples);
+    }
     for (std::size_t b = 0; b < bands.count(); ++b) {
-      const Band& band = bands[b];
-      out->row(b)[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), band.centre_nm);
-      const double white =
-          out->white_ ? light.integral(band.lower_nm, band.upper_nm) / band.width_nm() / space->luminance : 1;
-      out->row(b)[kSigmoidWhite] = static_cast<float>(white);
+      out->row(b)[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), bands[b].centre_nm);
+      out->row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
     }
   }
   out->set_limits();

@@ -106,6 +106,10 @@ Result<ResponseCurves> Sensor::response_curves() const {
 
 Result<SensorProjector> SensorProjector::create(const Sensor& sensor, const Bands& bands,
                                                 const std::optional<Spectrum>& light) {
+  if (bands.plan() != nullptr) {
+    return make_error(ErrorCode::kBadArgument,
+                      "planned bands are weighed by their plan's own sensor, the CIE observer, alone");
+  }
   SensorProjector out;
   out.bands_ = bands;
   for (const Band& band : bands.list()) {

@@ -6,6 +6,7 @@
 #include "kernels/abi.hpp"
 #include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
+#include "src/model/planned_bands.hpp"
 #include "src/ops/exact_basis.hpp"
 #include "src/ops/sigmoid_model.hpp"
 #include "src/ops/working_space.hpp"
@@ -59,9 +60,11 @@ Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands
     if (!basis) return basis.error();
     for (std::size_t b = 0; b < bands.count(); ++b) {
       const Band& band = bands[b];
-      const double total = times_light ? product_integral(*basis, light, band.lower_nm, band.upper_nm)
-                                       : basis->integral(band.lower_nm, band.upper_nm);
-      out[b][k] = data.scale * total / band.width_nm();
+      const bool averages = times_light && !bands.are_points();
+      const double sample =
+          averages ? product_integral(*basis, light, band.lower_nm, band.upper_nm) / band.width_nm()
+                   : sample_in(*basis, bands, b) * (times_light ? light.at(band.centre_nm) : 1);
+      out[b][k] = data.scale * sample;
     }
   }
   return out;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/errors.hpp"
+#include "src/model/planned_bands.hpp"
 
 namespace spectile {
 
@@ -17,11 +18,11 @@ Result<WorkingSpace> working_space(const Bands& bands, Quantity quantity, const 
   WorkingSpace out;
   out.white.assign(bands.count(), 1.0);
   if (emits) {
+    auto white = light_samples(light, bands);
+    if (!white) return white.error();
+    out.white = *std::move(white);
     double luminance = 0;
-    for (std::size_t b = 0; b < bands.count(); ++b) {
-      out.white[b] = light.integral(bands[b].lower_nm, bands[b].upper_nm) / bands[b].width_nm();
-      luminance += out.white[b] * xyz_weights[b][1];
-    }
+    for (std::size_t b = 0; b < bands.count(); ++b) luminance += out.white[b] * xyz_weights[b][1];
     if (!(luminance > 0)) {
       return make_error(ErrorCode::kBadArgument, "bands {} hold no luminance of the light's",
                         bands.description());
