@@ -27,6 +27,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/noise_texture.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,25 +84,6 @@ std::vector<Plane> read_planes(const std::string& path, int& width, int& height)
   return planes;
 }
 
-/// A hash of two numbers, in [0, 1).
-double noise(unsigned x, unsigned y) {
-  unsigned h = x * 374761393U + y * 668265263U;
-  h = (h ^ (h >> 13)) * 1274126177U;
-  return ((h ^ (h >> 16)) & 0xFFFFFFU) / 16777216.0;
-}
-
-/// Smooth noise at a scale of `cell` pixels.
-double smooth(double x, double y, double cell, unsigned seed) {
-  const double u = x / cell;
-  const double v = y / cell;
-  const auto i = static_cast<unsigned>(u);
-  const auto j = static_cast<unsigned>(v);
-  const double a = u - i;
-  const double b = v - j;
-  const auto at = [&](unsigned p, unsigned q) { return noise(i + p + 7919 * seed, j + q); };
-  return (1 - b) * ((1 - a) * at(0, 0) + a * at(1, 0)) + b * ((1 - a) * at(0, 1) + a * at(1, 1));
-}
-
 void make_texture(const std::string& path, int size, const std::string& image) {
   const auto n = static_cast<std::size_t>(size);
   std::vector<Plane> planes = {
@@ -120,13 +103,7 @@ void make_texture(const std::string& path, int size, const std::string& image) {
                                 x % static_cast<std::size_t>(w)];
           continue;
         }
-        const auto fx = static_cast<double>(x);
-        const auto fy = static_cast<double>(y);
-        const auto seed = static_cast<unsigned>(k);
-        const double v = 0.5 * smooth(fx, fy, 301, seed) + 0.3 * smooth(fx, fy, 37, 9) +
-                         0.15 * smooth(fx, fy, 5, 11) +
-                         0.05 * noise(static_cast<unsigned>(x), static_cast<unsigned>(y) + 31 * seed);
-        out = half(static_cast<float>(v));
+        out = half(static_cast<float>(bench::texture(x, y, k)));
       }
     }
   }

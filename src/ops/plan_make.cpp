@@ -56,6 +56,11 @@ Matrix columns(const Matrix& table, const std::vector<Eigen::Index>& which) {
   return out;
 }
 
+/// The nearest whole picometre.
+double picometres(double nm) {
+  return std::round(nm * 1000) / 1000;
+}
+
 /// Starts beside those of the exchange, each wavelength up to so far from there.
 constexpr double kStartNm = 10;
 
@@ -89,7 +94,7 @@ Numbers fitted(const Matrix& reflectances, const PlannerOptions& o, const std::v
   Numbers n = plan::fit(problem, starts_of(problem, o, count));
   // Whole picometres, which names of channels hold; bands that touch still do not overlap.
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
-    n.lambda[k] = std::round(n.lambda[k] * 1000) / 1000;
+    n.lambda[k] = picometres(n.lambda[k]);
     n.half[k] = std::max(0.0, std::floor(n.half[k] * 1000 - 1) / 1000);
   }
   return n;
@@ -166,7 +171,9 @@ Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
     const double nm = n.lambda[k];
     out.wavelengths_nm.push_back(nm);
-    if (o.sampling == PlanSampling::kBands) out.bands.push_back({nm - n.half[k], nm, nm + n.half[k]});
+    if (o.sampling == PlanSampling::kBands) {
+      out.bands.push_back({picometres(nm - n.half[k]), nm, picometres(nm + n.half[k])});
+    }
     // Only products count: emission values are made 1 on average.
     const double mean = n.emission.row(k).mean();
     const double by = std::abs(mean) > 1e-6 ? mean : 1.0;
