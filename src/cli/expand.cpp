@@ -29,6 +29,7 @@ int run(const Arguments& a) {
   Batch batch;
   if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
   batch.settings = settings_text(options);
+  batch.made_from = files_among({a.bands});
   return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return expand_image(job.input, job.output, options); });
 }
@@ -43,7 +44,8 @@ void add_expand(CLI::App& app, int& exit) {
   command->add_option("-o,--output", a->output, "File, or directory for several inputs")->required();
   command->add_option(
       "--bands", a->bands,
-      "FIRST:LAST:STEP in nm, or a list of centres; by default those the image was made for, which "
+      "FIRST:LAST:STEP in nm, a list of centres, or a plan (plan.json); by default those the image was made "
+      "for, which "
       "give the bits that upsample writes. For others, basis spectra are made anew, and a sigmoid "
       "is evaluated at their centres, as far as the bands it was made for reach");
   add_write_options(*command, a->write, "half");

@@ -279,7 +279,8 @@ void add_film_simulate(CLI::App& film, int& exit) {
   command->add_option("--input", a->input, "What the film is fed with: wavelengths, or bands")
       ->check(CLI::IsMember({"wavelengths", "bands"}))
       ->capture_default_str();
-  command->add_option("--bands", a->bands, "FIRST:LAST:STEP in nm, or centres; 400:700:5 by default");
+  command->add_option("--bands", a->bands,
+                      "FIRST:LAST:STEP in nm, centres, or a plan (plan.json); 400:700:5 by default");
   command->add_flag("--spectral", a->spectral, "Keep spectra on the bands too");
   command->add_option("--observer", a->observer, "1931 (2 degree) or 1964 (10 degree)")
       ->check(CLI::IsMember({"1931", "1964"}))

@@ -11,7 +11,7 @@
 namespace spectile::io {
 
 void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts, const Bands& bands) {
-  if (bands.plan() != nullptr) texts.emplace_back(kPlanAttribute, plan_to_json(*bands.plan()));
+  if (bands.plan() != nullptr) texts.emplace_back(kPlanAttribute, plan_to_json(*bands.plan(), true));
 }
 
 Result<Bands> with_plan(const Imf::Header& header, const Bands& bands, const std::string& path) {

@@ -33,9 +33,9 @@ const char* name_of(Observer observer) {
   return observer == Observer::kCie1964 ? "1964" : "1931";
 }
 
-std::string dumped(const Json& json) {
+std::string dumped(const Json& json, int indent) {
   // Text that is no UTF-8 is mended rather than refused: names are for people.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 // --- to JSON ----------------------------------------------------------------------------------------------
@@ -301,7 +301,7 @@ std::string json_error(const std::string& what) {
 
 }  // namespace
 
-std::string plan_to_json(const Plan& plan) {
+std::string plan_to_json(const Plan& plan, bool one_line) {
   Json out = {{"wavelengths_nm", plan.wavelengths_nm}};
   for (const Band& band : plan.bands) out["bands_nm"].push_back({band.lower_nm, band.upper_nm});
   out["sensor"] = Json::object();
@@ -313,7 +313,7 @@ std::string plan_to_json(const Plan& plan) {
   for (const PlanLight& light : plan.lights) out["illuminants"].push_back(to_json(light));
   out["observer"] = name_of(plan.observer);
   if (!plan.promises.empty() || !plan.even.empty()) out["promise"] = promises_of(plan);
-  return dumped(out) + "\n";
+  return one_line ? dumped(out, -1) : dumped(out, 1) + "\n";
 }
 
 Result<Plan> parse_plan(std::string_view json, const std::string& source) {
