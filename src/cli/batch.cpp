@@ -216,4 +216,8 @@ std::vector<std::string> files_among(const std::vector<std::string>& names_or_fi
   return out;
 }
 
+std::string file_of_bands(const std::string& bands) {
+  return Bands::parse(bands) ? std::string() : bands;
+}
+
 }  // namespace spectile::cli

@@ -73,4 +73,7 @@ nlohmann::json skipped_line(const Batch& batch, const Job& job);
 /// Of texts that are names of spectra or files, the files.
 std::vector<std::string> files_among(const std::vector<std::string>& names_or_files);
 
+/// Of bands, as find_bands() takes them, the file; empty where they are numbers.
+std::string file_of_bands(const std::string& bands);
+
 }  // namespace spectile::cli

@@ -242,6 +242,16 @@ int plan_jobs(const std::vector<std::string>& inputs, const std::string& output,
   return kOk;
 }
 
+Result<void> check_output(const std::string& output, const std::vector<std::string>& made_from) {
+  for (const std::string& file : made_from) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(file, output, error) || error) continue;
+    return Error{ErrorCode::kBadArgument,
+                 fmt::format("{}: the output is {}, which it is made from", output, file)};
+  }
+  return {};
+}
+
 int run_jobs(const Batch& batch, const Common& common, ImageOptions& options,
              const std::function<Result<ImageReport>(const Job&)>& convert) {
   int exit = kOk;
@@ -261,7 +271,8 @@ int run_jobs(const Batch& batch, const Common& common, ImageOptions& options,
       if (interrupted()) return kInterrupted;
       continue;
     }
-    auto report = [&] {
+    auto report = [&]() -> Result<ImageReport> {
+      if (const auto good = check_output(job.output, batch.made_from); !good) return good.error();
       ProgressBar bar(std::filesystem::path(job.input).filename().string(), !common.quiet);
       options.progress = [&bar](const Progress& progress) { return bar.update(progress); };
       auto result = convert(job);

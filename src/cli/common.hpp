@@ -59,6 +59,9 @@ struct Job {
 /// when it does not exist and there are several inputs or the name ends in a slash. Says what is wrong.
 int plan_jobs(const std::vector<std::string>& inputs, const std::string& output, std::vector<Job>& jobs);
 
+/// Whether an output is none of the files that it is made from, which would be lost. Errors: kBadArgument.
+Result<void> check_output(const std::string& output, const std::vector<std::string>& made_from);
+
 struct Batch;
 
 /// Runs convert(job) for each job of a batch that needs it; one that fails does not stop the others. Prints

@@ -29,7 +29,7 @@ int run(const Arguments& a) {
   Batch batch;
   if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
   batch.settings = settings_text(options);
-  batch.made_from = files_among({a.bands});
+  batch.made_from = files_among({file_of_bands(a.bands)});
   return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return expand_image(job.input, job.output, options); });
 }

@@ -48,6 +48,7 @@ int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   ImageOptions options;
   if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  if (const auto good = check_output(a.output, {a.input}); !good) return complain(good.error());
   catch_signals();
   const auto loaded = load_film(a.input, a.common.threads);
   if (!loaded) return complain(loaded.error());

@@ -167,6 +167,9 @@ void print_report(const Plan& plan, const Wanted& wanted, double seconds, const 
 int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   if (a.bands.has_value() == a.max_error.has_value()) return usage("give either --bands or --max-error");
+  for (const auto* const files : {&a.lights, &a.reflectances, &a.textures}) {
+    if (const auto good = check_output(a.output, *files); !good) return complain(good.error());
+  }
   catch_signals();
   Wanted wanted;
   PlannerOptions& o = wanted.options;

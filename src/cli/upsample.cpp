@@ -33,7 +33,7 @@ int run(const Arguments& a) {
   Batch batch;
   if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
   batch.settings = settings_text(options);
-  batch.made_from = files_among({a.method.light, a.method.bands, options.mask});
+  batch.made_from = files_among({a.method.light, file_of_bands(a.method.bands), options.mask});
   return run_jobs(batch, a.common, options,
                   [&](const Job& job) { return upsample_image(job.input, job.output, options); });
 }

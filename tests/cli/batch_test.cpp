@@ -119,6 +119,38 @@ TEST_F(Batches, UpdateConvertsAnewForOtherSettings) {
   EXPECT_THAT(run({"-u", "--white", folder_ / "lamp.csv"}).out, HasSubstr("7 converted, 0 up to date\n"));
 }
 
+TEST_F(Batches, UpdateSeesAPlanChange) {
+  const std::string plan = folder_ / "plan.json";
+  const auto write_plan = [&](const char* first_nm) {
+    test::write_text(plan, std::string("{\"wavelengths_nm\": [") + first_nm +
+                               ", 550, 610], \"sensor\": {\"x\": [0.2, 0.3, 0.45], \"y\": [0, 0.7, 0.3], "
+                               "\"z\": [1, 0.08, 0]}, \"illuminants\": [{\"name\": \"D65\", "
+                               "\"emission\": [1, 1, 1]}], \"observer\": \"1931\"}");
+    set_age(plan, 100);
+  };
+  write_plan("450");
+  const std::vector<std::string> options = {"-u", "--bands", plan};
+  const Outcome first = run(options);
+  EXPECT_THAT(first.out, HasSubstr("7 converted, 0 up to date\n")) << first;
+  EXPECT_THAT(run(options).out, HasSubstr("0 converted, 7 up to date\n"));
+  // Another plan under the name, however old; the same one, written anew.
+  write_plan("455");
+  EXPECT_THAT(run(options).out, HasSubstr("7 converted, 0 up to date\n"));
+  EXPECT_THAT(run(options).out, HasSubstr("0 converted, 7 up to date\n"));
+  set_age(plan, -100);
+  EXPECT_THAT(run(options).out, HasSubstr("7 converted, 0 up to date\n"));
+}
+
+TEST_F(Batches, NoOutputTakesThePlaceOfWhatItIsMadeFrom) {
+  const std::string lamp = folder_ / "lamp.csv";
+  const std::string text = "400,1\n700,2\n";
+  test::write_text(lamp, text);
+  const Outcome outcome = run_tool({"upsample", inputs_[0], "--white", lamp, "-o", lamp});
+  EXPECT_EQ(outcome.exit, 2) << outcome;
+  EXPECT_THAT(outcome.err, HasSubstr(lamp + ": the output is " + lamp + ", which it is made from"));
+  EXPECT_TRUE(test::file_bytes(lamp) == text);
+}
+
 TEST_F(Batches, UpdateReachesEveryCommand) {
   const std::string compact = folder_ / "compact.exr";
   const std::string spectral = folder_ / "spectral.exr";

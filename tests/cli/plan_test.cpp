@@ -33,6 +33,23 @@ class PlanCommand : public testing::Test {
   const std::string output_ = folder_ / "plan.json";
 };
 
+TEST_F(PlanCommand, NeverTakesThePlaceOfWhatItIsMadeFrom) {
+  std::string table;
+  for (int nm = 380; nm <= 730; nm += 50) {
+    table += std::to_string(nm);
+    for (int i = 0; i < 10; ++i) table += "," + std::to_string(0.5 + 0.4 * std::sin(nm * 0.01 + i));
+    table += "\n";
+  }
+  test::write_text(output_, table);
+  for (const char* const option : {"--reflectances", "--illuminant", "--texture"}) {
+    const auto outcome =
+        run_tool(plan({"--illuminant", "D65", option, output_, "--bands", "3", "--folds", "0"}));
+    EXPECT_EQ(outcome.exit, 2) << option << outcome;
+    EXPECT_THAT(outcome.err, HasSubstr("which it is made from")) << option;
+    EXPECT_TRUE(test::file_bytes(output_) == table) << option;
+  }
+}
+
 TEST_F(PlanCommand, WritesAPlanAndReportsItsPromise) {
   const auto outcome =
       run_tool(plan({"--illuminant", "d65", "--illuminant", "FL11", "--reflectances", folder_ / "patches.csv",
