@@ -17,6 +17,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/atomic_file.hpp"
+#include "src/io/exr_sizes.hpp"
 
 namespace spectile::io {
 namespace {
@@ -38,13 +39,14 @@ Result<void> check_is_exr(const std::string& path) {
   const bool folder = known && S_ISDIR(status.st_mode);
   const bool plain = known && S_ISREG(status.st_mode);
   const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
+  const Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
   ::close(fd);
   if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
   if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
   // The magic number of OpenEXR files, little-endian 20000630.
   constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
   if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
-  return {};
+  return sizes;
 }
 
 }  // namespace
