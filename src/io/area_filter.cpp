@@ -45,9 +45,21 @@ namespace {
 /// out[j] = average of row over [j, j + 1) * from / to, for `to` pixels made of `from`.
 template <class Sample>
 void average_across(const Sample* row, int from, int to, double* out) {
-  const auto value = [row](std::int64_t i) { return static_cast<double>(static_cast<float>(row[i])); };
+  const auto value = [row](std::int64_t i) {
+    if constexpr (sizeof(Sample) == 2) return static_cast<double>(static_cast<float>(row[i]));
+    return static_cast<double>(row[i]);
+  };
+  const int ratio = from / to;
   if (from == 2 * to) {
     for (std::int64_t j = 0; j < to; ++j) out[j] = 0.5 * (value(2 * j) + value(2 * j + 1));
+    return;
+  }
+  if (from == ratio * to) {
+    for (std::int64_t j = 0; j < to; ++j) {
+      double sum = 0;
+      for (std::int64_t i = j * ratio; i < (j + 1) * ratio; ++i) sum += value(i);
+      out[j] = sum / ratio;
+    }
     return;
   }
   for (std::int64_t j = 0; j < to; ++j) {
@@ -60,17 +72,6 @@ void average_across(const Sample* row, int from, int to, double* out) {
       sum += static_cast<double>(overlap) * value(i);
     }
     out[j] = sum / from;
-  }
-}
-
-/// The same for what was made of samples, which keeps its digits.
-template <>
-void average_across(const double* row, int from, int to, double* out) {
-  const int ratio = from / to;
-  for (std::int64_t j = 0; j < to; ++j) {
-    double sum = 0;
-    for (std::int64_t i = j * ratio; i < (j + 1) * ratio; ++i) sum += row[i];
-    out[j] = sum / ratio;
   }
 }
 

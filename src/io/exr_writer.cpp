@@ -207,6 +207,11 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
                                          level_, level_, &encoder.chunk)
              : exr_write_scanline_chunk_info(context_, 0, first_y_ + encoder.region.y, &encoder.chunk);
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  // OpenEXR 3.1 cuts tiles of every level off where level 0 ends.
+  encoder.chunk.width = encoder.region.width;
+  encoder.chunk.height = encoder.region.height;
+  encoder.chunk.unpacked_size =
+      line_bytes(encoder.region.width) * static_cast<std::uint64_t>(encoder.region.height);
   encoder.pack = &pack;
   code = encoder.ready ? exr_encoding_update(context_, 0, &encoder.chunk, &encoder.pipeline)
                        : exr_encoding_initialize(context_, 0, &encoder.chunk, &encoder.pipeline);
