@@ -99,6 +99,7 @@ void add_film_average(CLI::App& film, int& exit) {
           "average at its pixel, which is 0 where all are)");
   command->remove_option(command->get_option("--lanes"));
   command->remove_option(command->get_option("--tile"));
+  command->remove_option(command->get_option("--mipmap"));
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

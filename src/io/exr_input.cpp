@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <exception>
 #include <new>
+#include <vector>
 
 #include "src/base/errors.hpp"
 #include "src/io/atomic_file.hpp"
@@ -119,6 +120,25 @@ Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int 
     Imf::TiledInputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readTiles(x0, x1, row, row);
+  });
+}
+
+Result<void> ExrInput::read_smallest(int part) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    const int level_x = input.numXLevels() - 1;
+    const int level_y = input.numYLevels() - 1;
+    const int x = input.numXTiles(level_x) - 1;
+    const int y = input.numYTiles(level_y) - 1;
+    const Imath::Box2i window = input.dataWindowForTile(x, y, level_x, level_y);
+    const int width = window.max.x - window.min.x + 1;
+    const int height = window.max.y - window.min.y + 1;
+    std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    // A channel that there is not; the tile is read all the same.
+    Imf::FrameBuffer target;
+    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, samples.data(), window.min, width, height));
+    input.setFrameBuffer(target);
+    input.readTile(x, y, level_x, level_y);
   });
 }
 
