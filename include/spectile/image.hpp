@@ -87,6 +87,10 @@ struct ImageOptions {
   /// Conversions of an image to another write tiles of this width and height, 1 to 4096, where it is given,
   /// and scanlines where not.
   std::optional<std::array<int, 2>> tile;
+  /// Conversions of an image to another write mip levels too, down to one pixel, sizes rounded down, in tiles
+  /// of 64 x 64 where `tile` says nothing. A level's pixel is the average of the area that it covers: of
+  /// spectra, or of colours in linear light. kBadArgument for coefficients that are not linear in spectra.
+  bool mipmap = false;
   ProgressFunction progress;
 };
 

@@ -7,9 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -20,23 +18,6 @@ namespace {
 int usage(const std::string& message) {
   fmt::print(stderr, "spectile: {}\n", message);
   return kBadUsage;
-}
-
-/// A whole number of at most nine digits.
-std::optional<std::size_t> whole(std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value > 999'999'999) return {};
-  return value;
-}
-
-std::optional<Shard> parse_shard(std::string_view text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return {};
-  const auto index = whole(text.substr(0, slash));
-  const auto count = whole(text.substr(slash + 1));
-  if (!index || !count || *index >= *count) return {};
-  return Shard{*index, *count};
 }
 
 /// The shard of the task of a Slurm job array that this process is, if it is one.
@@ -52,10 +33,10 @@ int slurm_shard(std::optional<Shard>& out) {
   const std::string step = variable("SLURM_ARRAY_TASK_STEP").value_or("1");
   const std::string said =
       fmt::format("SLURM_ARRAY_TASK_ID={}, _COUNT={}, _MIN={}, _STEP={}", *id, *count, first, step);
-  const auto i = whole(*id);
-  const auto n = whole(*count);
-  const auto from = whole(first);
-  const auto by = whole(step);
+  const auto i = parse_count(*id);
+  const auto n = parse_count(*count);
+  const auto from = parse_count(first);
+  const auto by = parse_count(step);
   if (!i || !n || !from || !by || *by == 0 || *i < *from || (*i - *from) % *by != 0 ||
       (*i - *from) / *by >= *n) {
     return usage(fmt::format(
@@ -108,26 +89,12 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
 
 int apply_region(const BatchOptions& options, ImageOptions& out) {
   if (options.region.empty()) return kOk;
-  std::array<int, 4> region{};
-  const char* at = options.region.data();
-  const char* const end = at + options.region.size();
-  bool good = true;
-  for (std::size_t i = 0; i < region.size() && good; ++i) {
-    if (i > 0) good = at != end && *at++ == ',';
-    const auto [next, error] = std::from_chars(at, end, region[i]);
-    good = good && error == std::errc();
-    at = next;
-  }
-  if (!good || at != end || region[0] > region[2] || region[1] > region[3]) {
+  out.region = parse_region(options.region);
+  if (!out.region) {
     return usage(
         fmt::format("--region: \"{}\" is not X0,Y0,X1,Y1 with X0 <= X1 and Y0 <= Y1", options.region));
   }
-  out.region = region;
   return kOk;
-}
-
-std::string Shard::text() const {
-  return fmt::format("{}/{}", index, count);
 }
 
 Manifest::~Manifest() {

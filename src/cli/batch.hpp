@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/cli/common.hpp"
+#include "src/cli/option_texts.hpp"
 
 namespace spectile::cli {
 
@@ -21,13 +22,6 @@ void add_batch_options(CLI::App& command, BatchOptions& options);
 
 /// Puts the region into the options. The exit code of what is wrong, after saying it.
 int apply_region(const BatchOptions& options, ImageOptions& out);
-
-/// One of `count` even shares of the inputs.
-struct Shard {
-  std::size_t index = 0;  ///< from 0
-  std::size_t count = 1;
-  std::string text() const;  ///< "0/4"
-};
 
 /// A file to which each converted input adds a line of JSON. Several processes may share one.
 class Manifest {

@@ -195,6 +195,11 @@ void add_write_options(CLI::App& command, WriteOptions& options, const char* pix
                   "scanlines by default")
       ->expected(2)
       ->check(CLI::Range(1, 4096));
+  command.add_flag(
+      "--mipmap", options.mipmap,
+      "Write mip levels down to one pixel too, for renderers that filter textures: each pixel the "
+      "average of the area that it covers, of spectra or of linear colours; in tiles of 64 x 64 "
+      "where --tile says nothing");
   command.add_option("--lanes", options.lanes, "Most pixels a kernel call works on; changes speed only")
       ->check(CLI::Range(std::size_t{64}, std::size_t{1} << 30))
       ->capture_default_str();
@@ -204,6 +209,7 @@ int apply_write_options(const WriteOptions& options, const Common& common, Image
   out.threads = common.threads;
   out.tile_lanes = options.lanes;
   if (!options.tile.empty()) out.tile = {options.tile[0], options.tile[1]};
+  out.mipmap = options.mipmap;
   if (!options.pixel.empty()) out.pixel = options.pixel == "float" ? PixelType::kFloat : PixelType::kHalf;
   out.nonfinite = options.nonfinite == "zero" ? NonFinite::kZero : NonFinite::kStop;
   if (!options.compression.empty()) {

@@ -42,6 +42,7 @@ struct WriteOptions {
   std::string nonfinite = "stop";
   std::size_t lanes = 65536;
   std::vector<int> tile;  ///< width and height, or none
+  bool mipmap = false;
 };
 
 void add_write_options(CLI::App& command, WriteOptions& options, const char* pixel_default);

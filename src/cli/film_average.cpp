@@ -1,12 +1,12 @@
 // spectile film average: independent renders of one frame become their weighted average.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "src/cli/common.hpp"
+#include "src/cli/option_texts.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -18,25 +18,6 @@ struct Arguments {
   std::string output;
   std::optional<std::string> weights;
 };
-
-/// Numbers between commas.
-Result<std::vector<double>> parse_weights(const std::string& text) {
-  std::vector<double> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (bool more = true; more;) {
-    double value = 0;
-    const auto [after, code] = std::from_chars(at, end, value);
-    if (code != std::errc() || (after != end && *after != ',')) {
-      return Error{ErrorCode::kBadArgument,
-                   fmt::format("--weights \"{}\" are not numbers between commas", text)};
-    }
-    out.push_back(value);
-    more = after != end;
-    at = more ? after + 1 : end;
-  }
-  return out;
-}
 
 nlohmann::json to_json(const Arguments& a, const AverageOptions& options, const ImageReport& r) {
   nlohmann::json out = {{"inputs", a.inputs},
@@ -118,6 +99,7 @@ void add_film_average(CLI::App& film, int& exit) {
           "average at its pixel, which is 0 where all are)");
   command->remove_option(command->get_option("--lanes"));
   command->remove_option(command->get_option("--tile"));
+  command->remove_option(command->get_option("--mipmap"));
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

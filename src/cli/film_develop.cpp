@@ -108,6 +108,7 @@ void add_film_develop(CLI::App& film, int& exit) {
   command->remove_option(command->get_option("--nonfinite"));
   command->remove_option(command->get_option("--lanes"));
   command->remove_option(command->get_option("--tile"));
+  command->remove_option(command->get_option("--mipmap"));
   add_common(*command, a->common);
   command->callback([a, &exit] { exit = run(*a); });
 }

@@ -1,13 +1,13 @@
 // spectile film simulate: samples of a scene whose exact values are known, into a partial film.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "src/cli/common.hpp"
+#include "src/cli/option_texts.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -42,24 +42,6 @@ struct Arguments {
 int usage(const std::string& what) {
   fmt::print(stderr, "spectile: {} (see spectile film simulate --help)\n", what);
   return kBadUsage;
-}
-
-/// Whole numbers with `separator` between.
-template <class T>
-std::optional<std::vector<T>> whole_numbers(const std::string& text, char separator, std::size_t count) {
-  std::vector<T> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (out.size() < count) {
-    T value{};
-    const auto [after, code] = std::from_chars(at, end, value);
-    if (code != std::errc()) return {};
-    out.push_back(value);
-    const bool last = out.size() == count;
-    if (last ? after != end : after == end || *after != separator) return {};
-    at = last ? end : after + 1;
-  }
-  return out;
 }
 
 int film_options(const Arguments& a, FilmOptions& o) {

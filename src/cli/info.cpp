@@ -1,11 +1,11 @@
 // spectile info: what a file holds.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
 #include <optional>
 
 #include "src/cli/common.hpp"
+#include "src/cli/option_texts.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -101,20 +101,6 @@ void print_pixel(const ImageInfo& info, const std::string& where) {
   for (std::size_t i = 0; i < info.pixel.size(); ++i) {
     fmt::print("  {:<22} {:.7g}\n", info.channels[i].name, info.pixel[i]);
   }
-}
-
-std::optional<std::array<int, 2>> parse_pixel(const std::string& text) {
-  std::array<int, 2> at{};
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return std::nullopt;
-  const char* const ends[2] = {text.data() + comma, text.data() + text.size()};
-  const char* begin = text.data();
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto [end, error] = std::from_chars(begin, ends[i], at[i]);
-    if (error != std::errc{} || end != ends[i]) return std::nullopt;
-    begin = ends[i] + (i == 0 ? 1 : 0);
-  }
-  return at;
 }
 
 int run(const Arguments& a) {

@@ -50,6 +50,14 @@ bool describes_storage(const std::string& name) {
   return kNames.contains(name);
 }
 
+/// Types that say nothing but how pixels are stored, whatever the attribute's name, and none at all, which
+/// only damaged files have. OpenEXR 3.1.5's C library, which would be given them like those of other types
+/// that are not known here, takes neither: it crashes.
+bool must_stay_behind(std::string_view type) {
+  return type.empty() || type == "chlist" || type == "compression" || type == "lineOrder" ||
+         type == "tiledesc";
+}
+
 /// A target attribute's place: context, part, name.
 struct Place {
   exr_context_t to;
@@ -150,6 +158,7 @@ exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part
     if (describes_storage(it.name()) || it.name() == std::string_view(kSettingsAttribute)) continue;
     if (std::find(replaced.begin(), replaced.end(), it.name()) != replaced.end()) continue;
     const Imf::Attribute& attribute = it.attribute();
+    if (must_stay_behind(attribute.typeName())) continue;
     const Place at = {to, part, it.name()};
     exr_result_t result = EXR_ERR_SUCCESS;
     if (!set_scalar(attribute, at, result) && !set_vector_or_matrix(attribute, at, result) &&

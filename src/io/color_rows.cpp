@@ -1,6 +1,7 @@
 // A line of colour as an output's channels: names, range of halves, packing.
 #include "src/io/color_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -49,6 +50,15 @@ void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::
   auto* const packed = reinterpret_cast<std::uint16_t*>(halves.data());
   kernels.float_to_half(packed, line.rows[row], line.padded);
   std::memcpy(out, packed, width * sizeof(std::uint16_t));
+}
+
+void load_colors(const Strip& strip, int line, std::size_t first, std::size_t count, ColorLine& to) {
+  const auto width = static_cast<std::size_t>(strip.width);
+  to.set_width(width);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::memcpy(to.rows[k], strip.row(first + k, line), width * sizeof(float));
+    std::fill(to.rows[k] + width, to.rows[k] + to.padded, 0.0F);
+  }
 }
 
 Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation adaptation) {

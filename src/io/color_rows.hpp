@@ -28,6 +28,9 @@ std::uint64_t limit_to_half(const kernels::KernelTable& kernels, const ColorLine
 void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
                PixelType type, FloatBuffer& halves, std::byte* out);
 
+/// Takes a line of a strip of floats, from plane `first` on, into the first `count` rows.
+void load_colors(const Strip& strip, int line, std::size_t first, std::size_t count, ColorLine& to);
+
 /// XYZ of a projector to the colour wanted: sRGB, or XYZ, with the light's white adapted to D65's where
 /// asked.
 Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation adaptation);

@@ -76,9 +76,6 @@ class Run {
         slots_.size(), threads, [this](std::size_t slot) { return produce(slots_[slot]); },
         [this](std::size_t slot) { transform(slot); }, [this](std::size_t slot) { consume(slot); });
     if (error_) return *error_;
-    if (!stopped_) {
-      SPECTILE_TRY(writer_.commit());
-    }
     return total_;
   }
 
@@ -177,8 +174,8 @@ class Run {
     slot.known.reset();
     const Region region = writer_.region(slot.chunk);
     done_ += static_cast<std::uint64_t>(region.width) * static_cast<std::uint64_t>(region.height);
-    const Progress progress = {
-        done_, static_cast<std::uint64_t>(writer_.width()) * static_cast<std::uint64_t>(writer_.height())};
+    Progress progress = writer_.progress();
+    progress.pixels_done += done_;
     if (options_.progress && !options_.progress(progress)) {
       fail(make_error(ErrorCode::kCancelled, "stopped on request"));
     }
@@ -215,7 +212,7 @@ class Run {
   bool read_ahead_ = false;
   std::future<Result<std::shared_ptr<Strip>>> ahead_;  // its destructor waits for the reading to end
   int next_chunk_ = 0;
-  std::uint64_t done_ = 0;  // pixels
+  std::uint64_t done_ = 0;  // pixels of the level
   LineStats total_;
   std::atomic<bool> failed_ = false;
   std::atomic<bool> stopped_ = false;

@@ -19,6 +19,8 @@
 
 namespace spectile::io {
 
+class FilteredJob;
+
 /// One job's own part of a conversion.
 class LineJob {
  public:
@@ -32,6 +34,8 @@ class LineJob {
   /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are
   /// encoded once, as far as they are remembered.
   virtual bool repeats() const { return false; }
+  /// Itself, where its output can have mip levels.
+  virtual FilteredJob* filtered() { return nullptr; }
 };
 
 /// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.
@@ -53,8 +57,9 @@ class MemoryJob : public LineJob {
 /// Slots (and so encoders) that a conversion runs with.
 std::size_t slot_count(const ImageSpec& spec, int width, int threads);
 
-/// Streams a job's lines through the encoders into the writer's file, and commits it.
-/// `stop_at` says whether what was found so far forbids an output; then the rest is only counted.
+/// Streams a job's lines through the encoders into the present level of the writer's file.
+/// `stop_at` says whether what was found so far forbids an output; then the rest is only counted, and the
+/// file must not be committed.
 /// Errors: from reading and writing, kCancelled.
 Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
                                  const ImageOptions& options,

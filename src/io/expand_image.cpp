@@ -7,10 +7,12 @@
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/band_channels.hpp"
+#include "src/io/band_filter.hpp"
 #include "src/io/coefficient_source.hpp"
 #include "src/io/color_rows.hpp"
 #include "src/io/conversion.hpp"
 #include "src/io/method_attributes.hpp"
+#include "src/io/mip_levels.hpp"
 #include "src/io/output.hpp"
 #include "src/io/settings.hpp"
 #include "src/ops/tiles.hpp"
@@ -25,13 +27,18 @@ using io::Strip;
 struct Work {
   FloatBuffer coefficients;  // four rows of whole blocks
   io::BandPacker::Work bands;
+  io::BandFilter::Work filtered;
 };
 
-class ExpandJob : public io::LineJob {
+class ExpandJob : public io::FilteredJob {
  public:
   ExpandJob(io::CoefficientSource& source, const rows::SampledRows& rows, const ExpandImageOptions& options,
             const kernels::KernelTable& kernels)
-      : source_(source), rows_(rows), options_(options), packer_(kernels, rows, options) {
+      : source_(source),
+        rows_(rows),
+        options_(options),
+        packer_(kernels, rows, options),
+        filter_(kernels, source.upsampler(), rows, packer_, options, false) {
     padded_ = blocks_for(static_cast<std::size_t>(source.width())) * kLanesPerBlock;
   }
 
@@ -52,7 +59,9 @@ class ExpandJob : public io::LineJob {
       auto coefficients = FloatBuffer::create(4 * padded_);
       if (!bands) return bands.error();
       if (!coefficients) return coefficients.error();
-      works_.push_back({*std::move(coefficients), *std::move(bands)});
+      auto filtered = filter_.work(source_.width());
+      if (!filtered) return filtered.error();
+      works_.push_back({*std::move(coefficients), *std::move(bands), *std::move(filtered)});
     }
     return {};
   }
@@ -64,6 +73,42 @@ class ExpandJob : public io::LineJob {
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
     const auto width = static_cast<std::size_t>(strip.width);
+    const io::LineCoefficients of = load(work, strip, line, stats);
+    if (packed == nullptr) return;
+    pass_through(strip, line, source_.coefficients(), packed);
+    stats.limited += packer_.line(work.bands, of, width, *writer_, passing_count(), packed);
+    if (options_.mipmap) filter_.look(of, width);
+  }
+
+  std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
+    std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
+    for (std::size_t i = source_.coefficients(); i < source_.planes().size(); ++i) {
+      out.emplace_back(i, source_.planes()[i]);
+    }
+    return out;
+  }
+
+  std::size_t filtered_rows() const override { return filter_.rows(); }
+
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
+    LineStats counted_before;
+    const io::LineCoefficients of = load(works_[slot], strip, line, counted_before);
+    filter_.filter(of, static_cast<std::size_t>(strip.width), rows);
+  }
+
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
+    Work& work = works_[slot];
+    pass_through(strip, line, 0, packed);
+    filter_.pack(work.filtered, work.bands, {strip, line, passing_count()}, *writer_, passing_count(),
+                 packed);
+  }
+
+ private:
+  std::size_t passing_count() const { return source_.planes().size() - source_.coefficients(); }
+
+  /// A line's coefficients, those that cannot be used black.
+  io::LineCoefficients load(Work& work, const Strip& strip, int line, LineStats& stats) const {
+    const auto width = static_cast<std::size_t>(strip.width);
     float* rows[4] = {};
     for (std::size_t k = 0; k < source_.coefficients(); ++k) {
       rows[k] = work.coefficients.data() + k * padded_;
@@ -71,17 +116,17 @@ class ExpandJob : public io::LineJob {
       std::fill(rows[k] + width, rows[k] + blocks_for(width) * kLanesPerBlock, 0.0F);
     }
     settle(rows, width, line, stats);
-    if (packed == nullptr) return;
-    const std::size_t passing = source_.planes().size() - source_.coefficients();
-    for (std::size_t i = 0; i < passing; ++i) {
-      const std::size_t plane = source_.coefficients() + i;
-      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(plane, line), strip.row_bytes[plane]);
-    }
-    const io::LineCoefficients of = {{rows[0], rows[1], rows[2]}, rows[3]};
-    stats.limited += packer_.line(work.bands, of, width, *writer_, passing, packed);
+    return {{rows[0], rows[1], rows[2]}, rows[3]};
   }
 
- private:
+  void pass_through(const Strip& strip, int line, std::size_t first_plane, std::byte* packed) const {
+    const auto width = static_cast<std::size_t>(strip.width);
+    for (std::size_t i = 0; i < passing_count(); ++i) {
+      const std::size_t plane = first_plane + i;
+      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(plane, line), strip.row_bytes[plane]);
+    }
+  }
+
   /// Counts pixels whose coefficients are not finite, or whose samples could overflow, and makes them black.
   void settle(float* const rows[4], std::size_t width, int line, LineStats& stats) const {
     const std::size_t count = source_.coefficients();
@@ -102,6 +147,7 @@ class ExpandJob : public io::LineJob {
   const rows::SampledRows& rows_;
   const ExpandImageOptions& options_;
   io::BandPacker packer_;
+  io::BandFilter filter_;
   const io::ExrWriter* writer_ = nullptr;
   std::vector<Work> works_;
   std::size_t padded_ = 0;
@@ -137,7 +183,8 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   spec.source = &(*source)->header();
   spec.channels = job.channels(bands);
   spec.compression = options.compression;
-  spec.tile = options.tile;
+  spec.tile = io::tiles_of(options);
+  spec.mipmap = options.mipmap;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
   MethodOptions made;
@@ -150,7 +197,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots));
+  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
   auto converted = io::convert(job, **writer, slots, lines, options,

@@ -14,9 +14,11 @@
 #include <cerrno>
 #include <exception>
 #include <new>
+#include <vector>
 
 #include "src/base/errors.hpp"
 #include "src/io/atomic_file.hpp"
+#include "src/io/exr_sizes.hpp"
 
 namespace spectile::io {
 namespace {
@@ -38,13 +40,14 @@ Result<void> check_is_exr(const std::string& path) {
   const bool folder = known && S_ISDIR(status.st_mode);
   const bool plain = known && S_ISREG(status.st_mode);
   const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
+  const Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
   ::close(fd);
   if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
   if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
   // The magic number of OpenEXR files, little-endian 20000630.
   constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
   if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
-  return {};
+  return sizes;
 }
 
 }  // namespace
@@ -117,6 +120,25 @@ Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int 
     Imf::TiledInputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readTiles(x0, x1, row, row);
+  });
+}
+
+Result<void> ExrInput::read_smallest(int part) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    const int level_x = input.numXLevels() - 1;
+    const int level_y = input.numYLevels() - 1;
+    const int x = input.numXTiles(level_x) - 1;
+    const int y = input.numYTiles(level_y) - 1;
+    const Imath::Box2i window = input.dataWindowForTile(x, y, level_x, level_y);
+    const int width = window.max.x - window.min.x + 1;
+    const int height = window.max.y - window.min.y + 1;
+    std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    // A channel that there is not; the tile is read all the same.
+    Imf::FrameBuffer target;
+    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, samples.data(), window.min, width, height));
+    input.setFrameBuffer(target);
+    input.readTile(x, y, level_x, level_y);
   });
 }
 

@@ -44,6 +44,9 @@ class ExrInput {
   /// by read() or by this, not by both. Errors: kBadFile.
   Result<void> read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row);
 
+  /// Reads the last tile of a part's smallest level, to see whether it is there. Errors: kBadFile.
+  Result<void> read_smallest(int part);
+
  private:
   explicit ExrInput(std::string path) : path_(std::move(path)) {}
   /// What tells a file from another, and from itself after a change.

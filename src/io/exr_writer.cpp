@@ -1,5 +1,5 @@
-// ExrWriter: OpenEXR files of scanlines or tiles, their chunks packed by the caller, encoded in parallel,
-// written in order.
+// ExrWriter: OpenEXR files of scanlines or tiles, with mip levels or without, their chunks packed by the
+// caller, encoded in parallel, written in order.
 #include "src/io/exr_writer.hpp"
 
 #include <algorithm>
@@ -134,15 +134,18 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   if (tiled_) {
     SPECTILE_TRY(check(exr_set_tile_descriptor(context_, part, static_cast<std::uint32_t>((*spec.tile)[0]),
                                                static_cast<std::uint32_t>((*spec.tile)[1]),
-                                               EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN)));
+                                               spec.mipmap ? EXR_TILE_MIPMAP_LEVELS : EXR_TILE_ONE_LEVEL,
+                                               EXR_TILE_ROUND_DOWN)));
   }
   SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
   for (const auto& [name, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
   }
 
-  width_ = data.max.x - data.min.x + 1;
-  height_ = data.max.y - data.min.y + 1;
+  image_ = {data.max.x - data.min.x + 1, data.max.y - data.min.y + 1};
+  levels_ = tiled_ && spec.mipmap ? level_count(image_) : 1;
+  width_ = image_.width;
+  height_ = image_.height;
   first_y_ = data.min.y;
   lines_per_chunk_ = tiled_ ? (*spec.tile)[1] : lines_per_chunk_of(spec.compression.kind);
   chunk_width_ = tiled_ ? (*spec.tile)[0] : width_;
@@ -200,10 +203,15 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   Encoder& encoder = *encoders_[slot];
   encoder.region = region(chunk);
   exr_result_t code =
-      tiled_ ? exr_write_tile_chunk_info(context_, 0, chunk % chunks_across(), chunk / chunks_across(), 0, 0,
-                                         &encoder.chunk)
+      tiled_ ? exr_write_tile_chunk_info(context_, 0, chunk % chunks_across(), chunk / chunks_across(),
+                                         level_, level_, &encoder.chunk)
              : exr_write_scanline_chunk_info(context_, 0, first_y_ + encoder.region.y, &encoder.chunk);
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
+  // OpenEXR 3.1 cuts tiles of every level off where level 0 ends.
+  encoder.chunk.width = encoder.region.width;
+  encoder.chunk.height = encoder.region.height;
+  encoder.chunk.unpacked_size =
+      line_bytes(encoder.region.width) * static_cast<std::uint64_t>(encoder.region.height);
   encoder.pack = &pack;
   code = encoder.ready ? exr_encoding_update(context_, 0, &encoder.chunk, &encoder.pipeline)
                        : exr_encoding_initialize(context_, 0, &encoder.chunk, &encoder.pipeline);
@@ -247,6 +255,21 @@ Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   });
 }
 
+void ExrWriter::begin_level(int level) {
+  level_ = level;
+  width_ = size(level).width;
+  height_ = size(level).height;
+}
+
+Progress ExrWriter::progress() const noexcept {
+  Progress out;
+  for (int level = 0; level < levels_; ++level) {
+    out.pixels += size(level).pixels();
+    if (level < level_) out.pixels_done += size(level).pixels();
+  }
+  return out;
+}
+
 Region ExrWriter::region(int chunk) const noexcept {
   Region out;
   out.x = chunk % chunks_across() * chunk_width_;
@@ -263,8 +286,8 @@ std::span<const std::byte> ExrWriter::encoded(std::size_t slot) const {
 Result<void> ExrWriter::write(int chunk, std::span<const std::byte> encoded) {
   const exr_result_t code =
       tiled_
-          ? exr_write_tile_chunk(context_, 0, chunk % chunks_across(), chunk / chunks_across(), 0, 0,
-                                 encoded.data(), encoded.size())
+          ? exr_write_tile_chunk(context_, 0, chunk % chunks_across(), chunk / chunks_across(), level_,
+                                 level_, encoded.data(), encoded.size())
           : exr_write_scanline_chunk(context_, 0, first_y_ + region(chunk).y, encoded.data(), encoded.size());
   if (code != EXR_ERR_SUCCESS) return write_failure("write", code);
   return {};

@@ -1,5 +1,5 @@
-// ExrWriter: OpenEXR files of scanlines or tiles, their chunks packed by the caller, encoded in parallel,
-// written in order.
+// ExrWriter: OpenEXR files of scanlines or tiles, with mip levels or without, their chunks packed by the
+// caller, encoded in parallel, written in order.
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>
@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "src/io/area_filter.hpp"
 #include "src/io/atomic_file.hpp"
 
 namespace spectile::io {
@@ -35,11 +36,12 @@ struct ImageSpec {
   std::vector<ChannelSpec> channels;  // names must be unique; the order is free
   Compression compression;
   std::optional<std::array<int, 2>> tile;  // width, height; scanlines where none
+  bool mipmap = false;                     // of tiles: whether there are smaller levels, rounded down
   std::vector<std::pair<std::string, std::string>> text_attributes;
   std::vector<std::string> replaced;
 };
 
-/// Pixels of an image that make a chunk, counted from its upper left corner.
+/// Pixels of a level that make a chunk, counted from its upper left corner.
 struct Region {
   int x = 0;
   int y = 0;
@@ -60,6 +62,16 @@ class ExrWriter {
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
 
+  /// Levels that must be written, 1 where there are no mip levels.
+  int levels() const noexcept { return levels_; }
+  LevelSize size(int level) const noexcept { return level_size(image_, level); }
+  /// The level that chunks belong to, 0 at first. Levels must be written in order; no chunk may be under way.
+  int level() const noexcept { return level_; }
+  void begin_level(int level);
+  /// What is done when the present level begins, and what there is to do, of all levels.
+  Progress progress() const noexcept;
+
+  /// Of the present level.
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
   int lines_per_chunk() const noexcept { return lines_per_chunk_; }
@@ -110,6 +122,9 @@ class ExrWriter {
   std::size_t pixel_bytes_ = 0;
   bool tiled_ = false;
   int chunk_width_ = 1;
+  LevelSize image_;
+  int levels_ = 1;
+  int level_ = 0;
   int width_ = 0;
   int height_ = 0;
   int first_y_ = 0;

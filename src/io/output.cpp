@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "src/base/errors.hpp"
+#include "src/io/mip_levels.hpp"
 
 namespace spectile::io {
 
@@ -32,10 +33,14 @@ Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, 
   if (!run) return run.error();
   const LineStats& stats = *run;
   if (auto refused = refusal(stats)) return *std::move(refused);
+  if (writer.levels() > 1) {
+    SPECTILE_TRY(write_levels(*job.filtered(), writer, slots, strip_lines, options));
+  }
+  SPECTILE_TRY(writer.commit());
   if (found != nullptr) *found = stats;
   ImageReport report;
-  report.width = writer.width();
-  report.height = writer.height();
+  report.width = writer.size(0).width;
+  report.height = writer.size(0).height;
   report.nonfinite_pixels = stats.nonfinite.count;
   report.negative_pixels = stats.negative.count;
   report.over_one_pixels = stats.over_one;

@@ -23,7 +23,8 @@ using Refusal = std::function<std::optional<Error>(const LineStats&)>;
 /// what is converted within the input's data window.
 Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std::array<int, 2> offset);
 
-/// Runs a conversion and reports its size, counts and bytes; `found`, where asked for, gets all counts.
+/// Runs a conversion, writes its mip levels where the file has some, and reports its size, counts and bytes,
+/// counts being those of the image itself; `found`, where asked for, gets all counts.
 /// Errors: those of run_conversion(), and the refusal.
 Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
                             const ImageOptions& options, const Refusal& refusal, LineStats* found = nullptr);

@@ -195,10 +195,15 @@ std::vector<PlanPromise> promises_from(const Json& illuminants, const std::strin
   for (const auto& [light, bounces] : illuminants.items()) {
     if (!bounces.is_object())
       throw Refused(fmt::format("{} under {} is no object", where, io::quoted(light)));
+    std::set<int> known;  // "1" and "1.0" are one
     for (const auto& [text, error] : bounces.items()) {
       const auto number = io::number_in(text);
       if (!number || !(*number >= 1 && *number <= 1000) || std::trunc(*number) != *number) {
         throw Refused(fmt::format("{} bounces of {} are no whole number from 1", io::quoted(text), where));
+      }
+      if (!known.insert(static_cast<int>(*number)).second) {
+        throw Refused(fmt::format("{} under {} is given twice for {} bounces", where, io::quoted(light),
+                                  static_cast<int>(*number)));
       }
       out.push_back({light, static_cast<int>(*number), error_of(error, where)});
     }

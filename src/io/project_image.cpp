@@ -11,6 +11,7 @@
 #include "src/io/conversion.hpp"
 #include "src/io/lines.hpp"
 #include "src/io/method_attributes.hpp"
+#include "src/io/mip_levels.hpp"
 #include "src/io/output.hpp"
 #include "src/io/settings.hpp"
 #include "src/io/spectral_source.hpp"
@@ -30,7 +31,7 @@ struct Work {
   FloatBuffer halves;
 };
 
-class ProjectJob : public io::LineJob {
+class ProjectJob : public io::FilteredJob {
  public:
   ProjectJob(io::SpectralSource& source, const Projector& projector, const ProjectImageOptions& options,
              const kernels::KernelTable& kernels)
@@ -89,6 +90,39 @@ class ProjectJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
+    colors(work, strip, line, stats);
+    if (packed == nullptr) return;
+    stats.limited += pack_colors(work, static_cast<std::size_t>(strip.width), packed);
+    for (const auto& [channel, plane] : passing_) pass(strip, plane, line, channel, packed);
+  }
+
+  std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
+    std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
+    for (const auto& [channel, plane] : passing_) out.emplace_back(plane, source_.planes()[plane]);
+    return out;
+  }
+
+  std::size_t filtered_rows() const override { return color_names_.size(); }
+
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
+    Work& work = works_[slot];
+    LineStats counted_before;
+    colors(work, strip, line, counted_before);
+    for (std::size_t k = 0; k < color_names_.size(); ++k) {
+      std::memcpy(rows[k], work.color.rows[k], work.color.padded * sizeof(float));
+    }
+  }
+
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
+    Work& work = works_[slot];
+    io::load_colors(strip, line, passing_.size(), color_names_.size(), work.color);
+    pack_colors(work, static_cast<std::size_t>(strip.width), packed);
+    for (std::size_t i = 0; i < passing_.size(); ++i) pass(strip, i, line, passing_[i].first, packed);
+  }
+
+ private:
+  /// A line's colours, in the slot's rows.
+  void colors(Work& work, const Strip& strip, int line, LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     work.color.set_width(width);
     float* const* rows = work.color.rows;
@@ -99,22 +133,25 @@ class ProjectJob : public io::LineJob {
       kernels_.transform3(rows, xyz, matrix_.data(), work.color.padded);
     }
     io::settle_range(kernels_, rows, width, line, Negative::kKeep, stats);
-    if (packed == nullptr) return;
+  }
+
+  /// Packs the slot's rows, and returns how many pixels were limited to what a half holds.
+  std::uint64_t pack_colors(Work& work, std::size_t width, std::byte* packed) const {
     const std::size_t colors = color_names_.size();
-    if (options_.pixel == PixelType::kHalf) {
-      stats.limited += io::limit_to_half(kernels_, work.color, colors, width);
-    }
+    const bool half = options_.pixel == PixelType::kHalf;
+    const std::uint64_t limited = half ? io::limit_to_half(kernels_, work.color, colors, width) : 0;
     for (std::size_t k = 0; k < colors; ++k) {
       io::store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
                     packed + writer_->channel_offset(k, width));
     }
-    for (const auto& [channel, plane] : passing_) {
-      std::memcpy(packed + writer_->channel_offset(channel, width), strip.row(plane, line),
-                  strip.row_bytes[plane]);
-    }
+    return limited;
   }
 
- private:
+  void pass(const Strip& strip, std::size_t plane, int line, std::size_t channel, std::byte* packed) const {
+    std::memcpy(packed + writer_->channel_offset(channel, static_cast<std::size_t>(strip.width)),
+                strip.row(plane, line), strip.row_bytes[plane]);
+  }
+
   /// Blocks that are gathered and then projected together; they stay in the caches.
   std::size_t tile_blocks() const {
     const std::size_t line = blocks_for(static_cast<std::size_t>(source_.width()));
@@ -197,7 +234,8 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
-  spec.tile = options.tile;
+  spec.tile = io::tiles_of(options);
+  spec.mipmap = options.mipmap;
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(),
@@ -207,7 +245,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, spec.channels, slots));
+  SPECTILE_TRY(job.prepare(**writer, spec.channels, slots + io::filter_slots(options)));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
   auto converted = io::convert(job, **writer, slots, lines, options,

@@ -10,6 +10,7 @@
 #include "src/io/color_rows.hpp"
 #include "src/io/color_stage.hpp"
 #include "src/io/method_attributes.hpp"
+#include "src/io/mip_levels.hpp"
 #include "src/io/output.hpp"
 #include "src/io/settings.hpp"
 #include "src/ops/relight_rows.hpp"
@@ -28,7 +29,7 @@ struct Work {
   FloatBuffer spectra;  // one block, for the long way
 };
 
-class RelightJob : public io::LineJob {
+class RelightJob : public io::FilteredJob {
  public:
   RelightJob(io::RgbSource& source, const Relighter& relighter, const RelightImageOptions& options,
              const kernels::KernelTable& kernels)
@@ -81,10 +82,43 @@ class RelightJob : public io::LineJob {
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
-    const auto width = static_cast<std::size_t>(strip.width);
-    work.color.set_width(width);
+    work.color.set_width(static_cast<std::size_t>(strip.width));
     stage_.line(strip, line, work.color, stats);
     if (packed == nullptr) return;
+    relight(work);
+    stats.limited += pack_colors(work, static_cast<std::size_t>(strip.width), packed);
+    for (const auto& [channel, plane] : passing_) pass(strip, plane, line, channel, packed);
+  }
+
+  std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
+    std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
+    for (const auto& [channel, plane] : passing_) out.emplace_back(plane, source_.planes()[plane]);
+    return out;
+  }
+
+  std::size_t filtered_rows() const override { return color_names_.size(); }
+
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
+    Work& work = works_[slot];
+    LineStats counted_before;
+    work.color.set_width(static_cast<std::size_t>(strip.width));
+    stage_.line(strip, line, work.color, counted_before);
+    relight(work);
+    for (std::size_t k = 0; k < color_names_.size(); ++k) {
+      std::memcpy(rows[k], work.color.rows[k], work.color.padded * sizeof(float));
+    }
+  }
+
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
+    Work& work = works_[slot];
+    io::load_colors(strip, line, passing_.size(), color_names_.size(), work.color);
+    pack_colors(work, static_cast<std::size_t>(strip.width), packed);
+    for (std::size_t i = 0; i < passing_.size(); ++i) pass(strip, i, line, passing_[i].first, packed);
+  }
+
+ private:
+  /// A line's colours under the light, in place of those of the texture.
+  void relight(Work& work) const {
     float* const* rows = work.color.rows;
     const float* const rgb[3] = {rows[0], rows[1], rows[2]};
     if (options_.way == Way::kDirect) {
@@ -96,21 +130,25 @@ class RelightJob : public io::LineJob {
     if (options_.target == ColorTarget::kLuminance) {
       std::memcpy(rows[0], rows[1], work.color.padded * sizeof(float));
     }
+  }
+
+  /// Packs the slot's rows, and returns how many pixels were limited to what a half holds.
+  std::uint64_t pack_colors(Work& work, std::size_t width, std::byte* packed) const {
     const std::size_t colors = color_names_.size();
-    if (options_.pixel == PixelType::kHalf) {
-      stats.limited += io::limit_to_half(kernels_, work.color, colors, width);
-    }
+    const bool half = options_.pixel == PixelType::kHalf;
+    const std::uint64_t limited = half ? io::limit_to_half(kernels_, work.color, colors, width) : 0;
     for (std::size_t k = 0; k < colors; ++k) {
       io::store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
                     packed + writer_->channel_offset(k, width));
     }
-    for (const auto& [channel, plane] : passing_) {
-      std::memcpy(packed + writer_->channel_offset(channel, width), strip.row(plane, line),
-                  strip.row_bytes[plane]);
-    }
+    return limited;
   }
 
- private:
+  void pass(const Strip& strip, std::size_t plane, int line, std::size_t channel, std::byte* packed) const {
+    std::memcpy(packed + writer_->channel_offset(channel, static_cast<std::size_t>(strip.width)),
+                strip.row(plane, line), strip.row_bytes[plane]);
+  }
+
   io::RgbSource& source_;
   const Relighter& relighter_;
   const RelightImageOptions& options_;
@@ -143,7 +181,8 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
-  spec.tile = options.tile;
+  spec.tile = io::tiles_of(options);
+  spec.mipmap = options.mipmap;
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(), {"chromaticities", "colorInteropID", "spectileSeenUnder"});
   spec.text_attributes = io::method_attributes(*upsampler, options, false);
@@ -155,7 +194,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots));
+  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
   auto converted = io::convert(job, **writer, slots, lines, options, refusal);

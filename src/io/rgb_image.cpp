@@ -101,7 +101,7 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
   const auto stats =
       io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
   if (!stats) return stats.error();
-  return {};
+  return (*writer)->commit();
 }
 
 }  // namespace

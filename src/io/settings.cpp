@@ -2,6 +2,7 @@
 #include "src/io/settings.hpp"
 
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <fmt/ranges.h>
 #include <sys/stat.h>
 
@@ -12,6 +13,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/exr_input.hpp"
+#include "src/io/mip_levels.hpp"
 #include "src/io/output.hpp"
 #include "src/io/strips.hpp"
 
@@ -150,12 +152,16 @@ class Line {
   Line& add(const ImageOptions& options) {
     // An option that is added there has to be looked at here: this no longer compiles then. Threads,
     // lanes, skipping and progress change no bit.
-    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, progress] = options;
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, progress] =
+        options;
     add("pixel", pixel == PixelType::kFloat ? "float" : "half");
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
     add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
-    add("tile", tile ? fmt::format("{}x{}", (*tile)[0], (*tile)[1]) : "none");
+    // As they are written: mip levels alone imply tiles.
+    const auto written = io::tiles_of(options);
+    add("tile",
+        written ? fmt::format("{}x{}{}", (*written)[0], (*written)[1], mipmap ? " mipmap" : "") : "none");
     return *this;
   }
 
@@ -179,10 +185,16 @@ class Line {
   std::string text_;
 };
 
-/// Reads the last line of a file, which a file that was cut short has not.
-Result<void> read_last_line(io::ExrInput& input) {
+/// Reads what comes last in a file, which a file that was cut short has not: the last line, or the last tile
+/// of the smallest level.
+Result<void> read_last(io::ExrInput& input) {
   for (int part = 0; part < input.parts(); ++part) {
     if (input.deep(part)) continue;
+    const Imf::Header& header = input.header(part);
+    if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL) {
+      SPECTILE_TRY(input.read_smallest(part));
+      continue;
+    }
     // A channel that there is not; the chunk is read all the same.
     const Imath::Box2i window = input.header(part).dataWindow();
     std::vector<float> line(static_cast<std::size_t>(io::width_of(input.header(part))));
@@ -266,7 +278,7 @@ bool up_to_date(const std::string& output, std::span<const std::string> made_fro
     const auto input = io::ExrInput::open(output, 1);
     if (!input) return input.error();
     if (settings.empty() || settings_in(**input) != settings) return false;
-    SPECTILE_TRY(read_last_line(**input));
+    SPECTILE_TRY(read_last(**input));
     return true;
   });
   return same && *same;

@@ -60,12 +60,14 @@ std::optional<SpectralChannel> parse_spectral_channel(std::string_view name) {
     if (base == "m") {
       // Nanometres, the layout's own unit, are taken as they are: no factor may round them.
       channel.wavelength_nm = prefix.symbol == "n" ? value : value * (prefix.factor * 1e9);
-      return channel;
-    }
-    if (base == "Hz") {
+    } else if (base == "Hz") {
       channel.wavelength_nm = kSpeedOfLight / (value * prefix.factor) * 1e9;
-      return channel;
+    } else {
+      continue;
     }
+    // Units can take a number out of the range of double.
+    if (!(channel.wavelength_nm > 0) || !std::isfinite(channel.wavelength_nm)) return std::nullopt;
+    return channel;
   }
   return std::nullopt;
 }

@@ -7,11 +7,13 @@
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/band_channels.hpp"
+#include "src/io/band_filter.hpp"
 #include "src/io/color_rows.hpp"
 #include "src/io/color_stage.hpp"
 #include "src/io/conversion.hpp"
 #include "src/io/line_solver.hpp"
 #include "src/io/method_attributes.hpp"
+#include "src/io/mip_levels.hpp"
 #include "src/io/output.hpp"
 #include "src/io/pixel_mask.hpp"
 #include "src/io/rgb_source.hpp"
@@ -33,9 +35,10 @@ struct Work {
   std::vector<std::uint8_t> masked;
   io::LineSolver::Work solving;
   io::BandPacker::Work bands;
+  io::BandFilter::Work filtered;
 };
 
-class UpsampleJob : public io::LineJob {
+class UpsampleJob : public io::FilteredJob {
  public:
   UpsampleJob(io::RgbSource& source, io::PixelMask& mask, const Upsampler& upsampler,
               const rows::SampledRows& rows, const UpsampleImageOptions& options,
@@ -46,7 +49,8 @@ class UpsampleJob : public io::LineJob {
         options_(options),
         stage_(source, upsampler, options, kernels),
         solver_(stage_, upsampler, kernels, options.skip, pixels_of(source)),
-        packer_(kernels, rows, options) {}
+        packer_(kernels, rows, options),
+        filter_(kernels, upsampler, rows, packer_, options, options.store == Store::kCoefficients) {}
 
   const io::ColorStage& stage() const noexcept { return stage_; }
 
@@ -79,6 +83,9 @@ class UpsampleJob : public io::LineJob {
       auto bands = packer_.work();
       if (!bands) return bands.error();
       work.bands = *std::move(bands);
+      auto filtered = filter_.work(source_.width());
+      if (!filtered) return filtered.error();
+      work.filtered = *std::move(filtered);
       works_.push_back(std::move(work));
     }
     return {};
@@ -95,10 +102,7 @@ class UpsampleJob : public io::LineJob {
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
     const auto width = static_cast<std::size_t>(strip.width);
-    work.rgb.set_width(width);
-    stage_.load(strip, line, work.rgb);
-    blacken(strip, line, work, stats);
-    const io::ColorStage::Settled settled = stage_.settle(line, work.rgb, width, stats);
+    const io::ColorStage::Settled settled = settle(work, strip, line, stats);
     if (packed == nullptr) {
       if (settled.may_be_outside) stage_.limit(line, work.rgb, width, stats);
       return;
@@ -106,6 +110,7 @@ class UpsampleJob : public io::LineJob {
     pass_through(strip, line, packed);
     const io::LineCoefficients of =
         solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, stats);
+    if (options_.mipmap) filter_.look(of, width);
     if (options_.store == Store::kCoefficients) {
       coefficients(of, width, packed);
     } else {
@@ -113,7 +118,44 @@ class UpsampleJob : public io::LineJob {
     }
   }
 
+  std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
+    std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
+    for (const io::PlaneSpec& plane : source_.planes()) out.emplace_back(out.size(), plane);
+    return out;
+  }
+
+  std::size_t filtered_rows() const override { return filter_.rows(); }
+
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
+    Work& work = works_[slot];
+    LineStats counted_before;
+    const io::ColorStage::Settled settled = settle(work, strip, line, counted_before);
+    const auto width = static_cast<std::size_t>(strip.width);
+    filter_.filter(solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, counted_before),
+                   width, rows);
+  }
+
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
+    Work& work = works_[slot];
+    pass_through(strip, line, packed);
+    const std::size_t first = source_.planes().size();
+    if (options_.store == Store::kCoefficients) {
+      coefficients(io::coefficients_in(strip, line, first), static_cast<std::size_t>(strip.width), packed);
+    } else {
+      filter_.pack(work.filtered, work.bands, {strip, line, first}, *writer_, first, packed);
+    }
+  }
+
  private:
+  /// A line's RGB as the method takes it, black where masked.
+  io::ColorStage::Settled settle(Work& work, const Strip& strip, int line, LineStats& stats) const {
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.rgb.set_width(width);
+    stage_.load(strip, line, work.rgb);
+    blacken(strip, line, work, stats);
+    return stage_.settle(line, work.rgb, width, stats);
+  }
+
   static std::uint64_t pixels_of(const io::RgbSource& source) {
     return static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
   }
@@ -176,6 +218,7 @@ class UpsampleJob : public io::LineJob {
   io::ColorStage stage_;
   io::LineSolver solver_;
   io::BandPacker packer_;
+  io::BandFilter filter_;
 };
 
 Result<ImageReport> upsample(const std::string& input, const std::string& output,
@@ -187,6 +230,13 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const int threads = tiles::thread_count(options.threads);
   const auto upsampler = io::upsampler_for(options);
   if (!upsampler) return upsampler.error();
+  if (options.mipmap && options.store == Store::kCoefficients && !io::linear_in_coefficients(*upsampler)) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "coefficients of {} have no mip levels: the spectrum of their average is not the average of "
+        "the spectra, as it is for {}; store spectra instead",
+        to_string(options.method), to_string(Method::kMallett));
+  }
   auto source = io::RgbSource::open(input, options.layer, threads, options.region);
   if (!source) return source.error();
 
@@ -199,7 +249,8 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   spec.source = &(*source)->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
-  spec.tile = options.tile;
+  spec.tile = io::tiles_of(options);
+  spec.mipmap = options.mipmap;
   const bool coefficients = options.store == Store::kCoefficients;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
@@ -209,7 +260,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
   auto writer = io::ExrWriter::create(output, spec, slots);
   if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots));
+  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
 
   const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };

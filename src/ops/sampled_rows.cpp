@@ -160,6 +160,17 @@ float SampledRows::bound(const std::array<float, 4>& largest) const noexcept {
   return 1.5F * (has_scale_ ? largest[3] : 1.0F) * largest_;
 }
 
+bool SampledRows::linear(bool any_component) const noexcept {
+  if (sigmoid_) return false;
+  if (std::isinf(lowest_)) return true;
+  if (any_component) return false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (std::any_of(basis(i), basis(i) + kernels::kSmitsRow, [](float sample) { return sample < 0; }))
+      return false;
+  }
+  return true;
+}
+
 void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* const c[3],
                               const float* scale, void* const* out, bool half, std::size_t n) const {
   if (sigmoid_) {

@@ -28,6 +28,12 @@ class SampledRows {
   std::size_t count() const noexcept { return count_; }
   /// Whether every lane has a scale besides its coefficients.
   bool has_scale() const noexcept { return has_scale_; }
+  /// The seven basis samples of a place, as kernels take them; of methods that mix bases.
+  const float* basis(std::size_t i) const noexcept { return table_.data() + i * row_floats_; }
+  /// Whether samples are linear in the weights of the bases (and for a method that is linear in RGB, in that)
+  /// as long as no component is below 0, or, with `any_component`, whatever they are: whether none is limited
+  /// from below.
+  bool linear(bool any_component) const noexcept;
   /// Largest magnitude of each coefficient, and of the scale, for which no sample can overflow.
   const std::array<float, 4>& limits() const noexcept { return limits_; }
   /// Coefficients of a black pixel, and its scale.

@@ -74,44 +74,13 @@ TEST(ChannelNames, AreReadLiberally) {
 }
 
 TEST(ChannelNames, OthersAreNotSpectral) {
-  for (const char* name : {"",
-                           "R",
-                           "Y",
-                           "A",
-                           "Z",
-                           "T",
-                           "T.",
-                           "S0.",
-                           "T.nm",
-                           "T.,nm",
-                           "T.550",
-                           "T.550 nm",
-                           "T.550nmx",
-                           "T.550Nm",
-                           "T.550n",
-                           "T.550s",
-                           "T.-550nm",
-                           "T.0nm",
-                           "T.infnm",
-                           "T.nannm",
-                           "T.0x1p9nm",
-                           "T.+550nm",
-                           "T.1e999nm",
-                           "T.1e-999nm",
-                           "S4.550nm",
-                           "S.550nm",
-                           "S00.550nm",
-                           "t.550nm",
-                           "s0.550nm",
-                           "T550nm",
-                           "left.T.550nm",
-                           "T.550xnm",
-                           "T.550,0,0nm",
-                           "T.5 50nm",
-                           "T.550nm ",
-                           " T.550nm",
-                           "T.550uHzz",
-                           "T.550dahm"}) {
+  for (const char* name :
+       {"",         "R",           "Y",          "A",         "Z",          "T",          "T.",
+        "S0.",      "T.nm",        "T.,nm",      "T.550",     "T.550 nm",   "T.550nmx",   "T.550Nm",
+        "T.550n",   "T.550s",      "T.-550nm",   "T.0nm",     "T.infnm",    "T.nannm",    "T.0x1p9nm",
+        "T.+550nm", "T.1e999nm",   "T.1e-999nm", "T.1e308Ym", "T.5e-324pm", "T.1e-320Hz", "T.1e308YHz",
+        "S4.550nm", "S.550nm",     "S00.550nm",  "t.550nm",   "s0.550nm",   "T550nm",     "left.T.550nm",
+        "T.550xnm", "T.550,0,0nm", "T.5 50nm",   "T.550nm ",  " T.550nm",   "T.550uHzz",  "T.550dahm"}) {
     EXPECT_FALSE(parse_spectral_channel(name)) << name;
   }
 }

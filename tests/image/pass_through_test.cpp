@@ -1,18 +1,22 @@
 // Channels and attributes that are no business of a conversion come out as they went in, to the bit.
 #include <OpenEXR/ImfBoxAttribute.h>
+#include <OpenEXR/ImfChannelListAttribute.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfCompressionAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFloatVectorAttribute.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfKeyCodeAttribute.h>
+#include <OpenEXR/ImfLineOrderAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOpaqueAttribute.h>
 #include <OpenEXR/ImfPreviewImage.h>
 #include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
+#include <OpenEXR/ImfTileDescriptionAttribute.h>
 #include <OpenEXR/ImfTimeCodeAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <gmock/gmock.h>
@@ -134,6 +138,22 @@ TEST(PassThrough, AttributesOfEveryTypeAreTheSame) {
     EXPECT_EQ(header.screenWindowWidth(), 0.45F);
     EXPECT_EQ(header.screenWindowCenter(), Imath::V2f(0.5F, -0.25F));
   }
+}
+
+TEST(PassThrough, AttributesThatDescribeStorageStayBehindWhateverTheirNames) {
+  const test::TempFolder folder;
+  test::Picture picture = test::blank(9, 6);
+  test::add_rgb_noise(picture, Imf::HALF);
+  const std::string names[] = {"itsChannels", "itsCompression", "itsOrder", "itsTiles"};
+  picture.header.insert(names[0], Imf::ChannelListAttribute(picture.header.channels()));
+  picture.header.insert(names[1], Imf::CompressionAttribute(Imf::PIZ_COMPRESSION));
+  picture.header.insert(names[2], Imf::LineOrderAttribute(Imf::DECREASING_Y));
+  picture.header.insert(names[3], Imf::TileDescriptionAttribute(Imf::TileDescription(8, 8)));
+  test::write_scanlines(folder / "in.exr", picture);
+  const auto made = upsample_image(folder / "in.exr", folder / "out.exr", test::kUpsample);
+  ASSERT_TRUE(made) << made.error().message;
+  const Imf::Header header = test::read_picture(folder / "out.exr").header;
+  for (const std::string& name : names) EXPECT_TRUE(header.find(name) == header.end()) << name;
 }
 
 TEST(PassThrough, EmptyValuesAreKept) {

@@ -66,7 +66,28 @@ void add_image_options(Texts& texts, const Options& usual) {
         [](Options& o) {
           o.region = std::array<int, 4>{12, 3, 4, 5};
         }},
-       {"nonfinite", [](Options& o) { o.nonfinite = NonFinite::kZero; }}});
+       {"nonfinite", [](Options& o) { o.nonfinite = NonFinite::kZero; }},
+       {"tile",
+        [](Options& o) {
+          o.tile = {64, 64};
+        }},
+       {"other tile",
+        [](Options& o) {
+          o.tile = {64, 32};
+        }},
+       {"mipmap", [](Options& o) { o.mipmap = true; }},
+       {"mipmap in other tiles", [](Options& o) {
+          o.mipmap = true;
+          o.tile = {64, 32};
+        }}});
+}
+
+TEST(Settings, MipmapAloneIsThatInItsUsualTiles) {
+  UpsampleImageOptions options;
+  options.mipmap = true;
+  const std::string alone = settings_text(options);
+  options.tile = {64, 64};
+  EXPECT_EQ(settings_text(options), alone);
 }
 
 template <class Options>

@@ -211,6 +211,9 @@ TEST(PlanFile, RefusesPromisesThatCannotBe) {
   expect_refused(with(R"({"illuminants": {"D65": {"0": {}}}})"), "\"0\" bounces");
   expect_refused(with(R"({"illuminants": {"D65": {"1e300": {}}}})"), "\"1e300\" bounces");
   expect_refused(with(R"({"illuminants": {"D65": {"1": {"mean": 1}}}})"), "has no \"percentile95\"");
+  const std::string error = R"({"mean":1,"percentile95":2,"maximum":3})";
+  expect_refused(with(R"({"illuminants": {"D65": {"2": )" + error + R"(, "2.0": )" + error + "}}}"),
+                 "\"D65\" is given twice for 2 bounces");
   expect_refused(with(R"({"even_bands": {"400:700:5": []}})"), "is no object");
 }
 

@@ -1,0 +1,69 @@
+// Fuzzes plans as JSON: a plan that can be read is written as text that means the very same plan.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <spectile/plan_file.hpp>
+
+#include "fuzz/support.hpp"
+
+namespace {
+
+using namespace spectile;
+
+bool same(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+bool same(std::span<const double> a, std::span<const double> b) {
+  return std::ranges::equal(a, b, [](double x, double y) { return same(x, y); });
+}
+
+bool same(const PlanPromise& a, const PlanPromise& b) {
+  return a.light == b.light && a.bounces == b.bounces && same(a.error.mean, b.error.mean) &&
+         same(a.error.percentile95, b.error.percentile95) && same(a.error.maximum, b.error.maximum);
+}
+
+bool same(const PlanLight& a, const PlanLight& b) {
+  return a.name == b.name && same(a.emission, b.emission) &&
+         same(a.spectrum.wavelengths_nm(), b.spectrum.wavelengths_nm()) &&
+         same(a.spectrum.values(), b.spectrum.values());
+}
+
+void require_same(const Plan& a, const Plan& b, const std::string& text) {
+  fuzz::require(a.observer == b.observer, "the observer comes back", text);
+  fuzz::require(same(a.wavelengths_nm, b.wavelengths_nm), "wavelengths come back to the bit", text);
+  fuzz::require(
+      std::ranges::equal(a.sensor, b.sensor, [](const auto& x, const auto& y) { return same(x, y); }),
+      "sensor weights come back to the bit", text);
+  fuzz::require(
+      std::ranges::equal(a.lights, b.lights, [](const auto& x, const auto& y) { return same(x, y); }),
+      "lights come back to the bit", text);
+  fuzz::require(
+      std::ranges::equal(a.promises, b.promises, [](const auto& x, const auto& y) { return same(x, y); }),
+      "promises come back to the bit", text);
+  fuzz::require(std::ranges::equal(a.even, b.even,
+                                   [](const auto& x, const auto& y) {
+                                     return x.bands == y.bands && same(x.promise, y.promise);
+                                   }),
+                "promises of even bands come back to the bit", text);
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto plan = parse_plan(fuzz::text_of({data, size}), "case");
+  if (!fuzz::is_value(plan)) {
+    fuzz::require(plan.error().message.starts_with("case: "), "an error names its source",
+                  plan.error().message);
+    return 0;
+  }
+  fuzz::require(plan->count() > 0 && !plan->lights.empty() && plan->sensor.size() == plan->count(),
+                "a plan has wavelengths, lights, and a weight for each");
+  const std::string text = plan_to_json(*plan);
+  const auto again = parse_plan(text, "case");
+  fuzz::require(static_cast<bool>(again), "a written plan can be read",
+                again ? text : again.error().message + "\n" + text);
+  require_same(*plan, *again, text);
+  fuzz::require(plan_to_json(*again) == text, "a plan written twice is the same text", text);
+  return 0;
+}

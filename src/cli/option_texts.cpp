@@ -1,0 +1,69 @@
+// Texts of options taken apart: regions, shares, pixels, weights.
+#include "src/cli/option_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace spectile::cli {
+namespace {
+
+template <class T, std::size_t kCount>
+std::optional<std::array<T, kCount>> between_commas(std::string_view text) {
+  const auto numbers = whole_numbers<T>(text, ',', kCount);
+  if (!numbers) return {};
+  std::array<T, kCount> out{};
+  std::copy(numbers->begin(), numbers->end(), out.begin());
+  return out;
+}
+
+}  // namespace
+
+std::string Shard::text() const {
+  return fmt::format("{}/{}", index, count);
+}
+
+std::optional<std::size_t> parse_count(std::string_view text) {
+  const auto value = whole_numbers<std::size_t>(text, ',', 1);
+  if (!value || value->front() > 999'999'999) return {};
+  return value->front();
+}
+
+std::optional<Shard> parse_shard(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return {};
+  const auto index = parse_count(text.substr(0, slash));
+  const auto count = parse_count(text.substr(slash + 1));
+  if (!index || !count || *index >= *count) return {};
+  return Shard{*index, *count};
+}
+
+std::optional<std::array<int, 4>> parse_region(std::string_view text) {
+  const auto region = between_commas<int, 4>(text);
+  if (!region || (*region)[0] > (*region)[2] || (*region)[1] > (*region)[3]) return {};
+  return region;
+}
+
+std::optional<std::array<int, 2>> parse_pixel(std::string_view text) {
+  return between_commas<int, 2>(text);
+}
+
+Result<std::vector<double>> parse_weights(std::string_view text) {
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (bool more = true; more;) {
+    double value = 0;
+    const auto [after, code] = std::from_chars(at, end, value);
+    if (code != std::errc() || (after != end && *after != ',')) {
+      return Error{ErrorCode::kBadArgument,
+                   fmt::format("--weights \"{}\" are not numbers between commas", text)};
+    }
+    out.push_back(value);
+    more = after != end;
+    at = more ? after + 1 : end;
+  }
+  return out;
+}
+
+}  // namespace spectile::cli

@@ -1,0 +1,55 @@
+// Texts of options taken apart: regions, shares, pixels, weights.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <spectile/result.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spectile::cli {
+
+/// One of `count` even shares of the inputs.
+struct Shard {
+  std::size_t index = 0;  ///< from 0
+  std::size_t count = 1;
+  std::string text() const;  ///< "0/4"
+};
+
+/// "I/N", with I from 0 to N - 1, of at most nine digits each; nothing for other texts.
+std::optional<Shard> parse_shard(std::string_view text);
+
+/// A whole number of at most nine digits; nothing for other texts.
+std::optional<std::size_t> parse_count(std::string_view text);
+
+/// "X0,Y0,X1,Y1" with X0 <= X1 and Y0 <= Y1; nothing for other texts.
+std::optional<std::array<int, 4>> parse_region(std::string_view text);
+
+/// "X,Y"; nothing for other texts.
+std::optional<std::array<int, 2>> parse_pixel(std::string_view text);
+
+/// Numbers between commas. Errors: kBadArgument with the text quoted.
+Result<std::vector<double>> parse_weights(std::string_view text);
+
+/// `count` whole numbers with `separator` between; nothing for other texts.
+template <class T>
+std::optional<std::vector<T>> whole_numbers(std::string_view text, char separator, std::size_t count) {
+  std::vector<T> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (out.size() < count) {
+    T value{};
+    const auto [after, code] = std::from_chars(at, end, value);
+    if (code != std::errc()) return {};
+    out.push_back(value);
+    const bool last = out.size() == count;
+    if (last ? after != end : after == end || *after != separator) return {};
+    at = last ? end : after + 1;
+  }
+  return out;
+}
+
+}  // namespace spectile::cli
