@@ -94,10 +94,11 @@ struct PlannerOptions {
 /// the reflectances, of made-up ones with steep edges, and of a smooth prior), and are then moved, with the
 /// widths of bands, sensor weights and emission values, to the least colour differences, each in the
 /// CIEDE2000 metric at its own colour; white is held exactly. Promises are cross-validated: each reflectance
-/// is judged by a plan that was fitted without it. Errors: kBadArgument for no lights, a light without
-/// luminance, fewer than 10 reflectances, neither or both of bands and max_error, numbers out of their
-/// ranges; kUnavailable where max_error cannot be met, saying the best there is. Source of kernel quadrature:
-/// Rasmussen, Ghahramani, Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu, Dalal 2005.
+/// is judged by a plan that was fitted without it. Errors: kBadArgument for no lights, two of one name, a
+/// light without luminance or whose white has no X or Z, a reflectance that is no number somewhere, fewer
+/// than 10 reflectances, neither or both of bands and max_error, numbers out of their ranges; kUnavailable
+/// where max_error cannot be met, saying the best there is. Source of kernel quadrature: Rasmussen,
+/// Ghahramani, Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu, Dalal 2005.
 Result<Plan> make_plan(const PlannerOptions& options);
 
 /// Errors of a plan over reflectances, by the same measure, for products of `bounces` of them: all of them

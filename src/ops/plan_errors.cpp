@@ -63,7 +63,9 @@ Result<PlanError> plan_error(const Plan& plan, const PlannedLight& light,
   for (std::size_t k = 0; k < plan.bands.size(); ++k) {
     numbers.half[static_cast<Eigen::Index>(k)] = plan.bands[k].width_nm() / 2;
   }
-  const SampleSet samples = judged_samples(plan::tabulate(reflectances), bounces, kJudgedProducts);
+  auto table = plan::tabulate(reflectances);
+  if (!table) return table.error();
+  const SampleSet samples = judged_samples(*std::move(table), bounces, kJudgedProducts);
   return plan::summary(plan::differences(plan::truth_of(samples, *integrals),
                                          plan::predict(samples, numbers, 0), plan::white_of(*integrals)));
 }
@@ -101,7 +103,9 @@ Result<PlanError> even_bands_error(const Bands& bands, const PlannedLight& light
     return make_error(ErrorCode::kBadArgument, "the light {} has no luminance in these bands", light.name);
   }
   numbers.sensor /= sum;
-  const SampleSet samples = judged_samples(plan::tabulate(reflectances), bounces, kJudgedProducts);
+  auto table = plan::tabulate(reflectances);
+  if (!table) return table.error();
+  const SampleSet samples = judged_samples(*std::move(table), bounces, kJudgedProducts);
   return plan::summary(plan::differences(plan::truth_of(samples, *integrals),
                                          plan::predict(samples, numbers, 0), plan::white_of(*integrals)));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 #include <spectile/plan.hpp>
 
 #include "src/base/errors.hpp"
@@ -26,6 +27,11 @@ constexpr std::size_t kCounts[] = {4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20,
 
 Result<void> check(const PlannerOptions& o) {
   if (o.lights.empty()) return make_error(ErrorCode::kBadArgument, "a plan takes one light at least");
+  std::set<std::string_view> names;
+  for (const PlannedLight& light : o.lights) {
+    if (names.insert(light.name).second) continue;
+    return make_error(ErrorCode::kBadArgument, "two lights are called {}", light.name);
+  }
   if (o.reflectances.size() < kFewestReflectances) {
     return make_error(ErrorCode::kBadArgument, "a plan takes {} reflectances at least, not {}",
                       kFewestReflectances, o.reflectances.size());
@@ -113,7 +119,7 @@ Judged cross_validate(const Matrix& table, const PlannerOptions& o, const std::v
     for (Eigen::Index i = 0; i < table.cols(); ++i) (i % o.folds == fold ? judge : fit).push_back(i);
     const Numbers numbers = fitted(columns(table, fit), o, integrals, count);
     for (int b = 1; b <= o.bounces; ++b) {
-      const auto most = kJudgedProducts / static_cast<std::size_t>(o.folds);
+      const auto most = std::max<std::size_t>(1, kJudgedProducts / static_cast<std::size_t>(o.folds));
       const SampleSet samples = judged_samples(columns(table, judge), b, most);
       for (std::size_t l = 0; l < integrals.size(); ++l) {
         const auto d = plan::differences(plan::truth_of(samples, integrals[l]),
@@ -156,7 +162,8 @@ Result<void> compare_even(Plan& plan, const PlannerOptions& o) {
     for (const PlannedLight& light : o.lights) {
       for (int b = 1; b <= o.bounces; ++b) {
         const auto error = even_bands_error(*bands, light, o.reflectances, b, o.observer);
-        if (!error) return error.error();
+        // A light that is all beyond these bands; there is nothing to compare with.
+        if (!error) continue;
         plan.even.push_back({text, {light.name, b, *error}});
       }
     }
@@ -193,7 +200,9 @@ Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
 
 Result<Plan> make(const PlannerOptions& o) {
   SPECTILE_TRY(check(o));
-  const Matrix table = plan::tabulate(o.reflectances);
+  const auto tabulated = plan::tabulate(o.reflectances);
+  if (!tabulated) return tabulated.error();
+  const Matrix& table = *tabulated;
   std::vector<Matrix> integrals;
   for (const PlannedLight& light : o.lights) {
     auto one = plan::integrals(light, o.observer);

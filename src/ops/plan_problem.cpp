@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <spectile/color_difference.hpp>
 #include <spectile/sensor.hpp>
 
@@ -26,7 +27,7 @@ std::array<double, 3> triple(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Matrix tabulate(const std::vector<Spectrum>& reflectances) {
+Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances) {
   Matrix out(kGrid, static_cast<Eigen::Index>(reflectances.size()));
   for (Eigen::Index i = 0; i < out.cols(); ++i) {
     const Spectrum& r = reflectances[static_cast<std::size_t>(i)];
@@ -41,7 +42,12 @@ Matrix tabulate(const std::vector<Spectrum>& reflectances) {
     }
     for (Eigen::Index g = 0; g < kGrid; ++g) {
       const double nm = std::clamp(kFirstNm + static_cast<double>(g), first, last);
-      out(g, i) = std::clamp(r(nm), 0.0, 1.0);
+      const double value = r(nm);
+      if (std::isnan(value)) {
+        return make_error(ErrorCode::kBadArgument, "reflectance {} of {} is no number at {} nm", i + 1,
+                          out.cols(), nm);
+      }
+      out(g, i) = std::clamp(value, 0.0, 1.0);
     }
   }
   return out;
@@ -59,9 +65,18 @@ Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
       out(g, c) = sensor->factors()[k] * sensor->curves()[k](nm) * emitted;
     }
   }
-  const double sum = out.col(1).sum();
+  const Eigen::Vector3d white = white_of(out);
+  const double sum = white[1];
   if (!(sum > 0) || !std::isfinite(sum)) {
     return make_error(ErrorCode::kBadArgument, "the light {} has no luminance", light.name);
+  }
+  // CIELAB divides by all three. Red light beyond 650 nm has no Z.
+  if (!(white.minCoeff() > 0) || !white.allFinite()) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "the light {} has a white of X {:.3g}, Y 1, Z {:.3g}: colour differences are defined only "
+        "where all are above 0",
+        light.name, white[0] / sum, white[2] / sum);
   }
   return Matrix(out / sum);
 }
@@ -99,8 +114,10 @@ std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& w
 std::vector<double> differences(const Matrix& truth, const Matrix& got, const Eigen::Vector3d& white) {
   std::vector<double> out;
   for (Eigen::Index i = 0; i < truth.cols(); ++i) {
-    out.push_back(ciede2000(xyz_to_lab(triple(truth.col(i)), triple(white)),
-                            xyz_to_lab(triple(got.col(i)), triple(white))));
+    const double d = ciede2000(xyz_to_lab(triple(truth.col(i)), triple(white)),
+                               xyz_to_lab(triple(got.col(i)), triple(white)));
+    // What is no number must not pass for a small difference.
+    out.push_back(std::isnan(d) ? std::numeric_limits<double>::infinity() : d);
   }
   return out;
 }

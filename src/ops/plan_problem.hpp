@@ -53,8 +53,9 @@ Matrix truth_of(const SampleSet& set, const Matrix& integrals);
 /// XYZ of samples by a plan's numbers. Shapes: [3][samples].
 Matrix predict(const SampleSet& set, const Numbers& numbers, Eigen::Index light);
 
-/// Reflectances every nanometre, limited to [0, 1]. Shapes: [kGrid][reflectances].
-Matrix tabulate(const std::vector<Spectrum>& reflectances);
+/// Reflectances every nanometre, limited to [0, 1]. Shapes: [kGrid][reflectances]. Errors: kBadArgument for
+/// one that is no number somewhere.
+Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances);
 /// Reflectances with steep edges at any place, as strong dyes have, which a measured set has only a few of.
 /// Deterministic. Shapes: [kGrid][..].
 Matrix dye_spectra();
@@ -62,7 +63,7 @@ Matrix dye_spectra();
 Matrix smooth_spectra();
 
 /// Weights that turn a reflectance into XYZ under a light, Y = 1 for 1. Shapes: [kGrid][3].
-/// Errors: kBadArgument for a light without luminance.
+/// Errors: kBadArgument for a light without luminance, or whose white has no X or Z.
 Result<Matrix> integrals(const PlannedLight& light, Observer observer);
 /// XYZ of a reflectance that is 1.
 Eigen::Vector3d white_of(const Matrix& integrals);

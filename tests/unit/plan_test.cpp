@@ -50,6 +50,52 @@ TEST(Plan, WhiteIsExactUnderEveryLight) {
   }
 }
 
+/// A line, 2 nm wide at its foot.
+PlannedLight line(double nm) {
+  const std::vector<double> wavelengths = {nm - 1, nm, nm + 1};
+  const std::vector<double> values = {0, 1, 0};
+  return {"line", PiecewiseLinearSpectrum(*MeasuredSpectrum::from_samples(wavelengths, values))};
+}
+
+TEST(Plan, LightsWithoutAComponentOfWhiteAreRefused) {
+  PlannerOptions o = options({}, 4);
+  o.folds = 0;
+  for (const double nm : {660.0, 740.0}) {
+    o.lights = {light("D65"), line(nm)};
+    const auto plan = make_plan(o);
+    ASSERT_FALSE(plan) << nm;
+    EXPECT_EQ(plan.error().code, ErrorCode::kBadArgument);
+    EXPECT_THAT(plan.error().message, HasSubstr("the light line has a white of X"));
+    EXPECT_FALSE(even_bands_error(Bands(), line(nm), o.reflectances, 1));
+  }
+}
+
+TEST(Plan, ALightBeyondEvenBandsHasNothingToCompareWith) {
+  PlannerOptions o = options({}, 4);
+  o.lights = {line(385)};
+  const auto plan = make_plan(o);
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_EQ(plan->promises.size(), 1U);
+  // Of the four, 380:780:5 alone reaches it.
+  ASSERT_EQ(plan->even.size(), 1U);
+  EXPECT_EQ(plan->even[0].bands, "380:780:5");
+}
+
+TEST(Plan, ReflectancesThatAreNoNumbersAreRefused) {
+  PlannerOptions o = options({"D65"}, 4);
+  o.reflectances[3] = ConstantSpectrum(std::nan(""));
+  const auto plan = make_plan(o);
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().message, HasSubstr("reflectance 4 of 24 is no number at 360 nm"));
+  EXPECT_FALSE(even_bands_error(Bands(), o.lights[0], o.reflectances, 1));
+}
+
+TEST(Plan, TwoLightsOfOneNameAreRefused) {
+  const auto plan = make_plan(options({"D65", "A", "D65"}, 4));
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().message, HasSubstr("two lights are called D65"));
+}
+
 TEST(Plan, WavelengthsAscendWithinTheVisible) {
   PlannerOptions o = options({"D65"}, 12);
   o.folds = 0;
