@@ -94,6 +94,8 @@ Result<void> PixelMask::read(Strip& strip) {
   strip.planes.push_back(std::move((*own)->planes[0]));
   strip.stride_bytes.push_back((*own)->stride_bytes[0]);
   strip.row_bytes.push_back((*own)->row_bytes[0]);
+  const int height = height_of(region_ ? region_->header() : file_->header(part_));
+  if (strip.first_line + strip.lines == height) SPECTILE_TRY(file_->unchanged());
   return {};
 }
 

@@ -20,8 +20,8 @@ class PixelMask {
   /// those of ExrInput::open(), kBadFile where it has another size or no channel to take.
   static Result<PixelMask> open(const UpsampleImageOptions& options, const RgbSource& source, int threads);
 
-  /// Adds the mask's plane to a strip of the source, where it has one of its own. Errors: kBadFile,
-  /// kOutOfMemory.
+  /// Adds the mask's plane to a strip of the source, where it has one of its own. Errors: kBadFile, also for
+  /// a file that was changed when its last line is read; kOutOfMemory.
   Result<void> read(Strip& strip);
 
   /// Sets masked[x] to 1 or 0 for each pixel of a line, and returns how many are.

@@ -299,6 +299,26 @@ TEST_F(Settled, AnInputThatChangesWhileItIsReadIsAnError) {
   EXPECT_TRUE(upsample_image(folder_ / "long.exr", spectral_, options));
 }
 
+TEST_F(Settled, AMaskThatChangesWhileItIsReadIsAnError) {
+  Picture picture = test::blank(20, 3000);
+  test::add_rgb_noise(picture, Imf::HALF);
+  test::write_scanlines(folder_ / "long.exr", picture);
+  test::write_scanlines(folder_ / "mask.exr", picture);
+  UpsampleImageOptions options;
+  options.threads = 1;
+  options.masking = Masking::kFile;
+  options.mask = folder_ / "mask.exr";
+  int calls = 0;
+  options.progress = [&](const Progress&) {
+    if (calls++ == 0) set_time(options.mask, -20);
+    return true;
+  };
+  const auto report = upsample_image(folder_ / "long.exr", spectral_, options);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().message, options.mask + ": was changed while it was read");
+  EXPECT_FALSE(std::filesystem::exists(spectral_));
+}
+
 TEST_F(Settled, AFileCutShortIsNotUpToDate) {
   ASSERT_TRUE(upsample_image(input_, spectral_, test::kUpsample));
   const auto size = std::filesystem::file_size(spectral_);
