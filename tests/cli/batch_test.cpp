@@ -129,7 +129,7 @@ TEST_F(Batches, UpdateSeesAPlanChange) {
     set_age(plan, 100);
   };
   write_plan("450");
-  const std::vector<std::string> options = {"-u", "--bands", plan};
+  const std::vector<std::string> options = {"-u", "--method", "smits", "--bands", plan};
   const Outcome first = run(options);
   EXPECT_THAT(first.out, HasSubstr("7 converted, 0 up to date\n")) << first;
   EXPECT_THAT(run(options).out, HasSubstr("0 converted, 7 up to date\n"));
