@@ -270,7 +270,6 @@ TEST_F(Mipmap, OfExpandedImagesWithComponentsBelowZeroAreAveragesOfLimitedSpectr
   UpsampleImageOptions up;
   up.bands = *Bands::uniform(400, 700, 25);
   up.store = Store::kCoefficients;
-  up.method = Method::kSmits;
   ASSERT_TRUE(upsample_image(in_, folder_ / "c.exr", up));
   Picture picture = test::read_picture(folder_ / "c.exr");
   for (std::size_t i = 0; i < picture.pixels(); i += 3) picture.planes.at("spectile.c1").set(i, -0.3);
