@@ -159,5 +159,19 @@ TEST_F(SpectralInput, TwoChannelsOfOneWavelengthAreAnError) {
   EXPECT_EQ(report.error().code, ErrorCode::kBadFile);
 }
 
+TEST_F(SpectralInput, ABandFarBeyondSightIsVerifiedAtOnce) {
+  // Would be integrated in steps of a fraction of a nanometre, for years.
+  test::Picture picture = test::blank(9, 6);
+  for (const char* name : {"T.500nm", "T.600nm", "T.5e+7m"}) {
+    picture.add(name, Imf::FLOAT, [](int x, int y) { return test::noise(x, y, 1); });
+  }
+  test::write_scanlines(folder_ / "far.exr", picture);
+  MethodOptions options;
+  options.threads = 1;
+  const auto report = verify_image(folder_ / "far.exr", options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report->ok());
+}
+
 }  // namespace
 }  // namespace spectile

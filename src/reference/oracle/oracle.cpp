@@ -159,10 +159,15 @@ std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observ
   const data::MatchingFunctions& f = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
   const std::span<const double> bars[3] = {f.x_bar, f.y_bar, f.z_bar};
   std::vector<std::array<double, 3>> weights(bands.count());
+  // Nothing is seen beyond, and the bands of a file may reach any number of nanometres further.
+  const double first = f.first_nm - f.step_nm;
+  const double last = f.first_nm + f.step_nm * static_cast<double>(f.x_bar.size());
   double luminance = 0;
   for (std::size_t b = 0; b < bands.count(); ++b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      weights[b][k] = fine_integral(bands[b].lower_nm, bands[b].upper_nm, [&](double l) {
+    const double lower = std::max(bands[b].lower_nm, first);
+    const double upper = std::min(bands[b].upper_nm, last);
+    for (std::size_t k = 0; k < 3 && lower < upper; ++k) {
+      weights[b][k] = fine_integral(lower, upper, [&](double l) {
         return at_even(f.first_nm, f.step_nm, bars[k], l, true) * (light == nullptr ? 1.0 : light->at(l));
       });
     }
