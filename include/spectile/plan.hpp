@@ -46,7 +46,8 @@ struct PlanLight {
 /// What a plan's samples are.
 enum class PlanSampling {
   kPoints,  ///< a reflectance's values at the wavelengths, as renderers that trace wavelengths take them
-  kBands,   ///< its averages over bands, as sampled spectra hold them: several times as exact for one bounce
+  kBands,   ///< its averages over bands, as sampled spectra hold them: a half to a quarter of the error, for
+            ///< one bounce
 };
 
 /// XYZ of a reflectance r under a light is the sum over k of sensor_k * emission_k * r(lambda_k); that of a

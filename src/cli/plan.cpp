@@ -239,7 +239,7 @@ void add_plan(CLI::App& app, int& exit) {
       ->add_option("--sample", a->sample,
                    "What a sample is: points, a reflectance's value at a wavelength, as renderers that trace "
                    "wavelengths take it; or bands, its average over a band, as upsample's files hold it, "
-                   "which is several times as exact for light that is reflected once")
+                   "which has half to a quarter of the error for light that is reflected once")
       ->check(CLI::IsMember({"points", "bands"}))
       ->capture_default_str();
   command->add_option("--bands", a->bands, "Choose so many wavelengths, 3 to 64")

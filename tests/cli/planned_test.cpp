@@ -86,7 +86,7 @@ TEST_F(Planned, CoefficientsExpandAndFilmsTakeThem) {
 
 TEST_F(Planned, WhatIsNoPlanIsOneLine) {
   test::write_text(folder_ / "bad.json", "{\"wavelengths_nm\": [500]}");
-  for (const std::string bands : {folder_ / "bad.json", folder_ / "missing.json", in_}) {
+  for (const std::string& bands : {folder_ / "bad.json", folder_ / "missing.json", in_}) {
     const auto outcome = run_tool({"upsample", in_, "-o", out_, "--bands", bands});
     EXPECT_NE(outcome.exit, 0) << bands;
     EXPECT_TRUE(outcome.one_line()) << outcome;
