@@ -118,7 +118,7 @@ void draw(const char* path, const std::vector<Spectrum>& reflectances) {
   plot.x0 = 4;
   plot.x1 = 100;
   plot.y0 = 0.004;
-  plot.y1 = 12;
+  plot.y1 = 40;
   const char* const kEven = "#606060";
   const char* const kPoints = "#0072b2";
   const char* const kAverages = "#d55e00";
@@ -173,6 +173,10 @@ int main(int argc, char** argv) {
   auto reflectances = value_or_exit(load_spectra(std::string(argv[1]) + "/reflectances_190_patches_5nm.csv"));
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind == "reflectance") reflectances.push_back(value_or_exit(named_spectrum(info.name)));
+  }
+  if (argc == 4) {
+    draw(argv[2], reflectances);
+    return 0;
   }
   fmt::print(
       "{} reflectances; mean, maximum CIEDE2000 against integration every nanometre; planned ones by "
