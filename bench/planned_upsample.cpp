@@ -79,9 +79,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const fs::path folder = argv[1];
-  const int size = argc > 2 ? std::atoi(argv[2]) : 4096;
-  const int runs = argc > 3 ? std::atoi(argv[3]) : 3;
-  const int count = argc > 4 ? std::atoi(argv[4]) : 8;
+  const int size = argc > 2 ? static_cast<int>(std::strtol(argv[2], nullptr, 10)) : 4096;
+  const int runs = argc > 3 ? static_cast<int>(std::strtol(argv[3], nullptr, 10)) : 3;
+  const int count = argc > 4 ? static_cast<int>(std::strtol(argv[4], nullptr, 10)) : 8;
   if (size < 1 || runs < 1 || count < 3) return 2;
   const std::string texture = (folder / "texture.exr").string();
   make_texture(texture, size);

@@ -61,8 +61,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const fs::path folder = argv[1];
-  const auto n = static_cast<std::size_t>(argc > 2 ? std::max(1, std::atoi(argv[2])) : 4096);
-  const int runs = argc > 3 ? std::max(1, std::atoi(argv[3])) : 3;
+  const auto n = static_cast<std::size_t>(
+      argc > 2 ? std::max(1, static_cast<int>(std::strtol(argv[2], nullptr, 10))) : 4096);
+  const int runs = argc > 3 ? std::max(1, static_cast<int>(std::strtol(argv[3], nullptr, 10))) : 3;
   const auto at = [&](const char* name) { return (folder / name).string(); };
   const Used quadrant = [n](std::size_t x, std::size_t y) { return x < n / 2 && y < n / 2; };
   // Every fourth square of 256 x 256, scattered.

@@ -52,6 +52,7 @@ SampleSet sample_set(Matrix table) {
   for (Eigen::Index g = 1; g < out.table.rows(); ++g) {
     out.cumulative.row(g) = out.cumulative.row(g - 1) + 0.5 * (out.table.row(g - 1) + out.table.row(g));
   }
+  out.factors.reserve(static_cast<std::size_t>(out.table.cols()));
   for (Eigen::Index i = 0; i < out.table.cols(); ++i) out.factors.push_back({i});
   return out;
 }
@@ -61,6 +62,7 @@ void add_products(SampleSet& set, Eigen::Index among, int bounces, std::size_t m
   std::mt19937_64 random(20);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   for (std::size_t i = 0; i < most; ++i) {
     std::vector<Eigen::Index> factors;
+    factors.reserve(static_cast<std::size_t>(bounces));
     for (int b = 0; b < bounces; ++b) {
       factors.push_back(static_cast<Eigen::Index>(random() % static_cast<std::uint64_t>(among)));
     }
