@@ -48,9 +48,7 @@ void LineStats::add(const LineStats& later) {
 LineStats LineStats::moved(int right, int down) const {
   LineStats out = *this;
   for (PixelCount* const found : {&out.nonfinite, &out.negative, &out.outside}) {
-    if (found->count == 0) continue;
-    found->first_x += right;
-    found->first_y += down;
+    if (found->count > 0) *found = found->moved({right, down});
   }
   return out;
 }
