@@ -28,19 +28,16 @@
 #include <vector>
 
 #include "bench/noise_texture.hpp"
+#include "bench/or_exit.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using bench::median;
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 /// One channel's samples in memory.

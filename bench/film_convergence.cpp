@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <spectile/spectile.hpp>
 
 #include "bench/line_plot.hpp"
+#include "bench/or_exit.hpp"
 #include "bench/report.hpp"
 
 namespace {
@@ -213,12 +213,7 @@ void write_plot(const char* path, const std::vector<Series>& all) {
     plot.panels.back().lines.push_back(
         {color_of(s.wavelengths), s.density == WavelengthSampling::kVisible, false, s.samples, s.xyz});
   }
-  std::ofstream out(path);
-  out << bench::to_svg(plot);
-  if (!out.flush()) {
-    fmt::print(stderr, "{} cannot be written\n", path);
-    std::exit(1);
-  }
+  bench::write_or_exit(path, bench::to_svg(plot));
 }
 
 }  // namespace

@@ -6,24 +6,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <map>
 #include <spectile/spectile.hpp>
 
 #include "bench/line_plot.hpp"
+#include "bench/or_exit.hpp"
 
 namespace {
 
 using namespace spectile;
+using bench::value_or_exit;
 
 const char* const kLights[] = {"D65", "A", "FL2", "FL11", "HP1", "LED-B3", "LED-RGB1"};
-
-template <class T>
-T value_or_exit(Result<T> result) {
-  if (result) return *std::move(result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
 
 PlannedLight light(const std::string& name) {
   return {name, value_or_exit(find_spectrum(name))};
@@ -155,12 +149,7 @@ void draw(const char* path, const std::vector<Spectrum>& reflectances) {
     }
     plot.panels.push_back(std::move(panel));
   }
-  std::ofstream out(path);
-  out << bench::to_svg(plot);
-  if (!out.flush()) {
-    fmt::print(stderr, "{} cannot be written\n", path);
-    std::exit(1);
-  }
+  bench::write_or_exit(path, bench::to_svg(plot));
 }
 
 }  // namespace

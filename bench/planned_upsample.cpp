@@ -9,23 +9,14 @@
 #include <spectile/spectile.hpp>
 
 #include "bench/noise_texture.hpp"
+#include "bench/or_exit.hpp"
 
 namespace {
 
 using namespace spectile;
+using bench::median;
+using bench::value_or_exit;
 namespace fs = std::filesystem;
-
-template <class T>
-T value_or_exit(Result<T> result) {
-  if (result) return *std::move(result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 void make_texture(const std::string& path, int size) {
   const auto n = static_cast<std::size_t>(size);
@@ -35,10 +26,7 @@ void make_texture(const std::string& path, int size) {
       rgb.at(i, k) = static_cast<float>(bench::texture(i % n, i / n, k));
     }
   }
-  if (const auto done = write_rgb_image(path, rgb.view(), size, size); !done) {
-    fmt::print(stderr, "{}\n", done.error().message);
-    std::exit(1);
-  }
+  bench::done_or_exit(write_rgb_image(path, rgb.view(), size, size));
 }
 
 /// Colour differences between a texture and what a spectral image of it projects to.

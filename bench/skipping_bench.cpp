@@ -11,18 +11,13 @@
 #include <spectile/spectile.hpp>
 
 #include "bench/noise_texture.hpp"
+#include "bench/or_exit.hpp"
 
 namespace {
 
 using namespace spectile;
+using bench::value_or_exit;
 namespace fs = std::filesystem;
-
-template <class T>
-T value_or_exit(Result<T> result) {
-  if (result) return *std::move(result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
 
 /// Whether a pixel is used; the others are black.
 using Used = std::function<bool(std::size_t x, std::size_t y)>;
@@ -39,10 +34,7 @@ void write(const std::string& path, std::size_t n, const Used& used, double leve
   const auto side = static_cast<int>(n);
   ImageOptions options;
   if (levels > 0) options.pixel = PixelType::kFloat;
-  if (const auto done = write_rgb_image(path, rgb.view(), side, side, options); !done) {
-    fmt::print(stderr, "{}\n", done.error().message);
-    std::exit(1);
-  }
+  bench::done_or_exit(write_rgb_image(path, rgb.view(), side, side, options));
 }
 
 struct Case {
