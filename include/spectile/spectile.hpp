@@ -4,6 +4,7 @@
 #include <spectile/arithmetic.hpp>
 #include <spectile/average.hpp>
 #include <spectile/bands.hpp>
+#include <spectile/benchmark.hpp>
 #include <spectile/color_difference.hpp>
 #include <spectile/colorimetry.hpp>
 #include <spectile/directions.hpp>
