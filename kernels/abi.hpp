@@ -24,6 +24,9 @@ inline constexpr std::size_t kSumRun = 8;
 /// Floats of one band's row in a Smits table: white, cyan, magenta, yellow, red, green, blue, 0.
 inline constexpr std::size_t kSmitsRow = 8;
 
+/// Numbers that a limit's chains come in: a multiple of 24 vectors, whatever their width.
+inline constexpr std::size_t kLimitChains = 384;
+
 /// Largest finite half; rows of halves are limited to it, so that a finite sample stays finite.
 inline constexpr float kHalfMax = 65504.0F;
 
@@ -393,6 +396,21 @@ struct KernelTable {
                         std::size_t n) noexcept;  ///< nearest even; NaN quiet
   /// adds a row's counts to *scan
   void (*scan_rgb)(RgbScan* scan, const float* const rgb[3], std::size_t n) noexcept;
+
+  // The machine's own limits. n a multiple of kLanes, for those with steps of kLimitChains.
+  /// dst[i] = exclusive or of the bits of src[i], src[i + kLanes], ...; dst [kLanes]
+  void (*limit_load)(std::uint32_t* dst, const float* src, std::size_t n) noexcept;
+  /// dst[i] = value; `around`: with stores that go round the caches
+  void (*limit_store)(float* dst, float value, std::size_t n, bool around) noexcept;
+  void (*limit_copy)(float* dst, const float* src, std::size_t n) noexcept;  ///< dst[i] = src[i]
+  /// dst[i] = x after `steps` times x = (x * m) + a, two roundings, from src[i] on
+  void (*limit_multiply_add)(float* dst, const float* src, float m, float a, std::size_t steps,
+                             std::size_t n) noexcept;
+  /// the same with one rounding
+  void (*limit_fused)(float* dst, const float* src, float m, float a, std::size_t steps,
+                      std::size_t n) noexcept;
+  /// dst[i] = x after `steps` times x = m / x
+  void (*limit_divide)(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept;
 };
 
 }  // namespace spectile::kernels

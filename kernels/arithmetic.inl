@@ -88,34 +88,64 @@ inline void fold_bands(float* dst, const float* spectra, std::size_t bands, std:
 
 void minimum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   fold_bands(dst, spectra, bands, blocks, __builtin_inff(),
-             [](F32 least, F32 s) { return xsimd::select(s < least, s, least); });
+             [](F32 least, F32 s) { return limit_above(s, least); });  // s < least ? s : least
 }
 
 void maximum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   fold_bands(dst, spectra, bands, blocks, -__builtin_inff(),
-             [](F32 most, F32 s) { return xsimd::select(most < s, s, most); });
+             [](F32 most, F32 s) { return limit_below(s, most); });  // most < s ? s : most
 }
 
-void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
-  const F32 zero(0.0F);
-  for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
-    std::uint64_t black = ~std::uint64_t{0};
-    for (std::size_t band = 0; band < bands && black != 0; ++band) {
-      for (std::size_t j = 0; j < kLanes; j += kWidth) {
-        black &= ~(lane_bits(differ(load(spectra + band * kLanes + j), zero)) << j);
-      }
+/// Lanes of a block whose sums of samples are NaN: those with a NaN sample, and some with infinities.
+inline std::uint64_t maybe_nan(const float* block, std::size_t bands) noexcept {
+  F32 sums[kLanes / kWidth];
+  for (auto& s : sums) s = F32(0.0F);
+  for (std::size_t band = 0; band < bands; ++band) {
+    for (std::size_t j = 0; j < kLanes / kWidth; ++j) {
+      sums[j] = sums[j] + load(block + band * kLanes + j * kWidth);
     }
-    mask[block] = black;
   }
+  std::uint64_t found = 0;
+  for (std::size_t j = 0; j < kLanes / kWidth; ++j) found |= lane_bits(is_nan(sums[j])) << (j * kWidth);
+  return found;
 }
 
 void nan_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
+    // One sum a sample finds the blocks that need a closer look, which are rare.
     std::uint64_t found = 0;
-    for (std::size_t i = 0; i < bands * kLanes; i += kWidth) {
-      found |= lane_bits(is_nan(load(spectra + i))) << (i % kLanes);
+    if (maybe_nan(spectra, bands) != 0) {
+      for (std::size_t i = 0; i < bands * kLanes; i += kWidth) {
+        found |= lane_bits(is_nan(load(spectra + i))) << (i % kLanes);
+      }
     }
     mask[block] = found;
+  }
+}
+
+void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
+  // All bits of a lane's samples together, without the sign that a zero may have.
+  const U32 magnitude(0x7FFFFFFFU);
+  constexpr std::size_t kVectors = kLanes / kWidth;
+  constexpr std::size_t kRun = 8;  // bands between two looks whether any lane is still black
+  for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
+    U32 bits[kVectors];
+    for (auto& b : bits) b = U32(0U);
+    std::uint64_t black = ~std::uint64_t{0};
+    for (std::size_t first = 0; first < bands && black != 0; first += kRun) {
+      const std::size_t end = bands - first < kRun ? bands : first + kRun;
+      for (std::size_t band = first; band < end; ++band) {
+        for (std::size_t j = 0; j < kVectors; ++j) {
+          bits[j] = bits[j] | bits_as<std::uint32_t>(load(spectra + band * kLanes + j * kWidth));
+        }
+      }
+      black = 0;
+      for (std::size_t j = 0; j < kVectors; ++j) {
+        // As integers: a denormal is not 0, whatever the processor's mode.
+        black |= zero_lane_bits(bits[j] & magnitude) << (j * kWidth);
+      }
+    }
+    mask[block] = black;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "kernels/film_add.inl"
 #include "kernels/film_weigh.inl"
 #include "kernels/gamut.inl"
+#include "kernels/limits.inl"
 #include "kernels/sigmoid.inl"
 #include "kernels/sigmoid_reach.inl"
 #include "kernels/sigmoid_search.inl"
@@ -85,6 +86,12 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,
+    .limit_load = limit_load,
+    .limit_store = limit_store,
+    .limit_copy = limit_copy,
+    .limit_multiply_add = limit_multiply_add,
+    .limit_fused = limit_fused,
+    .limit_divide = limit_divide,
 };
 
 }  // namespace spectile::kernels

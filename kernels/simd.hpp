@@ -77,6 +77,25 @@ inline Mask is_nan(F32 v) {
   return ~(v == v);
 }
 
+/// One bit a lane: no bit of it is set.
+inline std::uint64_t zero_lane_bits(U32 v) {
+#if defined(SPECTILE_KERNEL_AVX512)
+  return static_cast<std::uint64_t>(_mm512_testn_epi32_mask(v, v));
+#elif defined(SPECTILE_KERNEL_AVX2)
+  const __m256i zero = _mm256_cmpeq_epi32(v, _mm256_setzero_si256());
+  return static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(zero))));
+#elif defined(SPECTILE_KERNEL_SSE42)
+  const __m128i zero = _mm_cmpeq_epi32(v, _mm_setzero_si128());
+  return static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(zero))));
+#else
+  std::uint32_t lanes[kWidth];
+  v.store_unaligned(lanes);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < kWidth; ++i) bits |= static_cast<std::uint64_t>(lanes[i] == 0) << i;
+  return bits;
+#endif
+}
+
 inline void stream(float* p, F32 v) {
 #if defined(SPECTILE_KERNEL_AVX512)
   _mm512_stream_ps(p, v);

@@ -44,6 +44,7 @@ struct MachineLimit {
   double copy = 0;                ///< bytes read and written, together
   double multiply_add = 0;        ///< float products and sums, rounded one by one; each counts
   double fused_multiply_add = 0;  ///< fused ones; each counts once. Kernels' strict formulas have few
+  double divide = 0;              ///< float quotients, each counts
   double spread = 0;  ///< largest of these: half the range of the middle half of the runs, over the median
 };
 

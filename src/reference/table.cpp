@@ -7,6 +7,7 @@
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/film.hpp"
 #include "src/reference/half.hpp"
+#include "src/reference/limits.hpp"
 #include "src/reference/sigmoid.hpp"
 #include "src/reference/smits.hpp"
 #include "src/reference/sums.hpp"
@@ -190,6 +191,12 @@ const kernels::KernelTable table = {
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,
+    .limit_load = limit_load,
+    .limit_store = limit_store,
+    .limit_copy = limit_copy,
+    .limit_multiply_add = limit_multiply_add,
+    .limit_fused = limit_fused,
+    .limit_divide = limit_divide,
 };
 
 }  // namespace spectile::reference

@@ -1,0 +1,49 @@
+// Memory of an operation's lanes: filled, handed to kernels in parts, read back in double.
+#pragma once
+
+#include <spectile/sampled_spectra.hpp>
+
+#include "src/measure/operation.hpp"
+
+namespace spectile::measure {
+
+class LaneMemory {
+ public:
+  /// As many whole blocks as fit into `bytes` at `memory`, 64-byte aligned; least_bytes() must.
+  LaneMemory(const Operation& operation, float* memory, std::size_t bytes);
+  /// Bytes that one block takes, source and target.
+  static std::size_t block_bytes(const Operation& operation);
+  /// And with the distance that planes are kept apart.
+  static std::size_t least_bytes(const Operation& operation, std::size_t blocks = 1);
+
+  std::size_t blocks() const noexcept { return blocks_; }
+  std::size_t lanes() const noexcept { return blocks_ * kernels::kLanes; }
+  Arrays arrays(std::size_t first, std::size_t count, bool around) const;
+
+  /// Values of a lane, [planes][rows]; halves are rounded.
+  void write(std::size_t lane, const float* values);
+  /// Copies the first `count` blocks' inputs over all the others.
+  void repeat(std::size_t count);
+  void read_in(std::size_t lane, double* values) const;
+  void read_out(std::size_t lane, double* values) const;
+
+ private:
+  static void read(const Shape& shape, const std::byte* at, std::size_t plane_bytes, std::size_t lane,
+                   double* values);
+  Shape in_, out_;
+  std::byte* source_;
+  std::byte* target_;
+  std::size_t blocks_ = 0;
+  std::size_t source_plane_ = 0, target_plane_ = 0;
+};
+
+/// The largest error over the first `lanes` lanes, and how many could be judged.
+struct Judged {
+  double worst = 0;
+  std::uint64_t cases = 0;
+  std::uint64_t beyond = 0;
+  std::vector<float> worst_input;
+};
+void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, double tiny, Judged& out);
+
+}  // namespace spectile::measure
