@@ -101,6 +101,7 @@ void add_verify(CLI::App& app, int& exit);
 void add_spectra(CLI::App& app, int& exit);
 void add_plan(CLI::App& app, int& exit);
 void add_film(CLI::App& app, int& exit);
+void add_bench(CLI::App& app, int& exit);
 
 // Each adds its subcommand to "film".
 void add_film_average(CLI::App& film, int& exit);

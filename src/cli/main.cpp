@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
   add_spectra(app, exit);
   add_plan(app, exit);
   add_film(app, exit);
+  add_bench(app, exit);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

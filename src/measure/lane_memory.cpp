@@ -2,6 +2,7 @@
 #include "src/measure/lane_memory.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "src/reference/half.hpp"
@@ -109,18 +110,23 @@ void LaneMemory::read_out(std::size_t lane, double* values) const {
   read(out_, target_, target_plane_, lane, values);
 }
 
-void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, double tiny,
+void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
            Judged& out) {
+  constexpr double kLeastNormal = 0x1p-126;
+  constexpr double kDenormalStep = 0x1p-149;
   std::vector<double> in(operation.in.values());
   std::vector<double> result(operation.out.values());
   for (std::size_t lane = 0; lane < std::min(lanes, memory.lanes()); ++lane) {
     memory.read_in(lane, in.data());
     memory.read_out(lane, result.data());
-    const double error = operation.error(in.data(), result.data(), tiny);
+    if (flushed && !operation.bitwise) {
+      for (double& v : in) v = std::abs(v) < kLeastNormal ? std::copysign(0.0, v) : v;
+    }
+    const double error = operation.error(in.data(), result.data(), flushed ? kLeastNormal : kDenormalStep);
     if (error == kNotJudged) continue;
     ++out.cases;
     if (!(error <= operation.bound)) ++out.beyond;
-    if (out.worst_input.empty() || error > out.worst) {
+    if (out.worst_input.empty() || !(error <= out.worst)) {
       out.worst = error;
       out.worst_input.assign(in.begin(), in.end());
     }

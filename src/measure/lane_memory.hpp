@@ -44,6 +44,8 @@ struct Judged {
   std::uint64_t beyond = 0;
   std::vector<float> worst_input;
 };
-void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, double tiny, Judged& out);
+/// `flushed`: the processor took and gave 0 for numbers below the least normal one.
+void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
+           Judged& out);
 
 }  // namespace spectile::measure

@@ -65,6 +65,7 @@ struct Operation {
   double operations = 0;
   double divisions = 0;
   bool can_stream = false;  ///< the kernel stores round the caches where it is told
+  bool bitwise = false;     ///< looks at bits: denormals are not 0 in any mode of the processor
   bool cache_only = false;  ///< works on a line of an image, never on more
   std::string binds;        ///< what binds it where its limit does not, in words
   std::string unit = "u";   ///< of error and bound

@@ -12,8 +12,6 @@ namespace {
 
 /// Lanes that are filled with numbers of their own and whose results are judged.
 constexpr std::size_t kJudgedBlocks = 32;
-/// What a result below the least normal number may be off by: a denormal's step.
-constexpr double kDenormalStep = 0x1p-149;
 
 /// An operation with its memory.
 struct Entry {
@@ -65,7 +63,7 @@ OperationSpeed speed_of(const Entry& entry, const LimitLoops& limits, const Spee
   const bool around = place.level == MemoryLevel::kMemory && op.can_stream;
   out.fraction = limits.fraction(entry.timed, entry.items, cost, around, &out.limit);
   Judged judged;
-  judge(op, *entry.memory, kJudgedBlocks * kernels::kLanes, kDenormalStep, judged);
+  judge(op, *entry.memory, kJudgedBlocks * kernels::kLanes, false, judged);
   out.error = judged.worst;
   out.bound = op.bound;
   out.error_unit = op.unit;

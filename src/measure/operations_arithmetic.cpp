@@ -74,6 +74,7 @@ void add_basic(std::vector<Operation>& to) {
   Operation negate = sample_operation("negate", 1);
   negate.operations = 1;
   negate.run = [](const KernelTable& k, const Arrays& a) { k.negate(a.out(), a.in(), a.n()); };
+  negate.bitwise = true;
   exact(negate, [](const double* v) { return -v[0]; });
   to.push_back(std::move(negate));
 

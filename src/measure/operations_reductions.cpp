@@ -67,6 +67,7 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
         k.black_mask(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
       },
       [=](const double* v) { return std::all_of(v, v + bands, [](double x) { return x == 0; }); });
+  to.back().bitwise = true;
   // What is looked at until the first sample that is not 0 must be black to be looked at whole.
   to.back().fill = uniform_values(bands, 0.0F, 0.0F);
   mask(

@@ -297,6 +297,12 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
   if (smits == nullptr) return make_error(ErrorCode::kOutOfMemory, "no memory for a table of bases");
   add_mixture(to, smits, "smits");
   // The exact methods need bands that tell colours apart: where there are none, there is nothing to measure.
+  // Finding them for hundreds of bands takes minutes.
+  constexpr std::size_t kMostBands = 100;
+  if (bands.count() > kMostBands) {
+    add_gamut(to, *smits);
+    return {};
+  }
   if (const auto exact = made_of(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
     auto light = illuminant("A");
@@ -315,9 +321,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
     kept->relighter = *std::move(made);
     add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
   }
-  if (bands.count() <= 100) {
-    if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoid(to, sigmoids);
-  }
+  if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoid(to, sigmoids);
   add_gamut(to, *smits);
   return {};
 }

@@ -1,0 +1,210 @@
+// spectile bench: what this machine can do, and what each way of doing a job costs in time and in error.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include "src/cli/common.hpp"
+
+namespace spectile::cli {
+namespace {
+
+struct Arguments {
+  bool quick = false;
+  bool stress = false;
+  bool stress_only = false;
+  bool json = false;
+  bool quiet = false;
+  std::string report;
+  std::vector<int> threads;
+  std::vector<std::string> isas, lights, only, reflectances;
+  std::uint64_t seed = 1;
+};
+
+std::string rate(double per_second) {
+  if (per_second >= 1e9) return fmt::format("{:.3g} G/s", per_second * 1e-9);
+  return fmt::format("{:.3g} M/s", per_second * 1e-6);
+}
+
+std::string place(const std::string& isa, int threads, MemoryLevel level) {
+  return fmt::format("{}, {} thread{}, {}", isa, threads, threads == 1 ? "" : "s",
+                     level == MemoryLevel::kCache ? "second-level cache" : "memory");
+}
+
+void print_machine(const BenchmarkReport& r) {
+  fmt::print("{}, {} core{}, {}, {}\n", r.machine.processor, r.machine.cores, r.machine.cores == 1 ? "" : "s",
+             r.machine.system, r.machine.compiler);
+  for (const std::string& text : r.disturbed) fmt::print("DISTURBED: {}\n", text);
+}
+
+void print_operations(const BenchmarkReport& r) {
+  for (const MachineLimit& l : r.limits) {
+    fmt::print(
+        "\n{}: load {:.3g}, store {:.3g}, round the caches {:.3g}, copy {:.3g} GB/s; products and sums "
+        "{:.3g} G/s, fused {:.3g}, quotients {:.3g}\n",
+        place(l.isa, l.threads, l.level), l.load * 1e-9, l.store * 1e-9, l.stream * 1e-9, l.copy * 1e-9,
+        l.multiply_add * 1e-9, l.fused_multiply_add * 1e-9, l.divide * 1e-9);
+    for (const OperationSpeed& o : r.operations) {
+      if (o.isa != l.isa || o.threads != l.threads || o.level != l.level) continue;
+      fmt::print("  {:<42} {:>10} {:>6.1f} GB/s {:>4.0f} % of {:<12} +-{:<3.0f}% error {:.2g} of {:.3g} {}\n",
+                 o.name, rate(o.items_per_second), o.bytes_per_second * 1e-9, 100 * o.fraction, o.limit,
+                 100 * o.spread, o.error, o.bound, o.error_unit);
+      if (!o.note.empty()) fmt::print("  {:<42} bound by {}\n", "", o.note);
+    }
+  }
+}
+
+void print_ways(const BenchmarkReport& r) {
+  std::string heading;
+  for (const WaySpeed& w : r.ways) {
+    const std::string now = fmt::format("{}: {}", w.job, w.light);
+    if (now != heading) {
+      heading = now;
+      fmt::print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.spiky ? " (spiky)" : "", "", "ns",
+                 "mean", "95 %", "max");
+    }
+    fmt::print("{} {:<50} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f}\n", w.frontier ? "*" : " ", w.name,
+               w.nanoseconds, w.error.mean, w.error.percentile95, w.error.maximum);
+  }
+  if (!r.ways.empty()) fmt::print("\n* no other way is as fast and as accurate\n");
+  std::string last;
+  for (const BenchmarkAdvice& a : r.advice) {
+    const std::string now = fmt::format("{}: {}", a.job, a.light);
+    if (now != last) fmt::print("\n{}\n", now);
+    last = now;
+    fmt::print("  {}\n", a.sentence);
+  }
+}
+
+void print_representations(const BenchmarkReport& r) {
+  std::string heading;
+  for (const RepresentationSpeed& s : r.representations) {
+    if (s.bounces != 1) continue;
+    if (s.light != heading) {
+      heading = s.light;
+      fmt::print("\nBounces 1 to 5 under {}: ns, CIEDE2000 mean (max)\n", s.light);
+    }
+    fmt::print("  {:<28}", s.name);
+    for (const RepresentationSpeed& t : r.representations) {
+      if (t.light != s.light || t.name != s.name) continue;
+      fmt::print("  {:.3g} ns {:.3f} ({:.2f})", t.nanoseconds, t.error.mean, t.error.maximum);
+    }
+    fmt::print("\n");
+  }
+}
+
+int print_stress(const BenchmarkReport& r) {
+  if (r.stress.empty()) return 0;
+  fmt::print("\nNumbers under stress\n  {:<42} {:>10} {:>10} {:>12}\n", "", "worst", "bound", "cases");
+  int beyond = 0;
+  for (const StressResult& s : r.stress) {
+    fmt::print("{} {:<42} {:>10.4g} {:>10.4g} {:>12} {}\n", s.beyond > 0 ? "!" : " ", s.operation, s.worst,
+               s.bound, s.cases, s.unit);
+    if (s.beyond > 0) {
+      fmt::print("  {} BEYOND: {}\n", s.beyond, s.worst_case);
+      ++beyond;
+    }
+  }
+  return beyond;
+}
+
+int write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (file) return kOk;
+  fmt::print(stderr, "spectile: cannot write {}\n", path);
+  return kNoRoom;
+}
+
+Result<BenchmarkOptions> options_of(const Arguments& a) {
+  BenchmarkOptions out;
+  out.quick = a.quick;
+  out.stress = a.stress || a.stress_only;
+  out.speed = !a.stress_only;
+  out.threads = a.threads;
+  out.isas = a.isas;
+  out.lights = a.lights;
+  out.only = a.only;
+  out.seed = a.seed;
+  for (const std::string& file : a.reflectances) {
+    auto some = load_spectra(file);
+    if (!some) return some.error();
+    out.reflectances.insert(out.reflectances.end(), some->begin(), some->end());
+  }
+  const bool show = !a.quiet && !a.json;
+  out.progress = [bar = progress_bar("bench", show)](const std::string&, double done) {
+    constexpr std::uint64_t kSteps = 1000;
+    if (bar && !bar(Progress{static_cast<std::uint64_t>(done * kSteps), kSteps})) return false;
+    return !interrupted();
+  };
+  return out;
+}
+
+int run(const Arguments& a) {
+  catch_signals();
+  auto options = options_of(a);
+  if (!options) return complain(options.error());
+  const auto report = run_benchmark(*options);
+  options->progress = nullptr;  // clears the bar
+  if (!report) return complain(report.error());
+  if (!a.report.empty()) {
+    if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
+  }
+  int beyond = 0;
+  if (a.json) {
+    fmt::print("{}\n", benchmark_to_json(*report));
+    for (const StressResult& s : report->stress) beyond += s.beyond > 0 ? 1 : 0;
+  } else {
+    print_machine(*report);
+    print_operations(*report);
+    print_ways(*report);
+    print_representations(*report);
+    beyond = print_stress(*report);
+    fmt::print("\n{:.0f} s\n", report->seconds);
+  }
+  if (beyond == 0) return kOk;
+  fmt::print(stderr, "spectile: {} operation{} beyond the stated bound\n", beyond,
+             beyond == 1 ? " is" : "s are");
+  return kBadInput;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, int& exit) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "bench",
+      "Measures this machine: what it can do at most, how near each operation comes to that and how\n"
+      "wrong it is, what each way of doing a job costs in time and in error, and whether the numbers\n"
+      "hold over the whole range of float. Takes minutes; a machine busy with other work is said to be.\n"
+      "Exit code 1 where a number is beyond its stated bound.");
+  command->add_flag("--quick", a->quick,
+                    "half a minute: the fastest instruction set in memory, fewer ways and rounds");
+  auto* stress = command->add_flag("--stress", a->stress, "the numbers' stress test in its long form too");
+  command->add_flag("--stress-only", a->stress_only, "nothing but that")->excludes(stress);
+  command->add_flag("--json", a->json, "print the whole report as JSON");
+  command->add_option("--report", a->report, "write the report as one page of HTML, with its plots")
+      ->type_name("OUT.html");
+  command->add_option("--threads", a->threads, "numbers of threads to measure (1, 2, 4 ... up to the cores)")
+      ->type_name("N")
+      ->delimiter(',');
+  command->add_option("--isa", a->isas, "instruction sets to measure (all that run here)")
+      ->type_name("NAME")
+      ->delimiter(',');
+  command->add_option("--illuminant", a->lights, "lights for the ways (D65, A, FL11, HP1)")
+      ->type_name("NAME")
+      ->delimiter(',');
+  command
+      ->add_option("--reflectances", a->reflectances,
+                   "files of measured reflectances that errors are over (the 24 of the ColorChecker)")
+      ->type_name("FILE");
+  command->add_option("--only", a->only, "only operations whose name contains this")->type_name("TEXT");
+  command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N");
+  command->add_flag("-q,--quiet", a->quiet, "no progress bar");
+  command->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace spectile::cli
