@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidthOfLetter = 0.56;  // of the font size: sans-serif fonts' average letter is 0.5
 constexpr double kGap = 3;
 constexpr int kDirections = 16;
-constexpr double kRings[] = {0, 14, 30};  // beyond the mark, in pixels
+constexpr double kRings[] = {0, 14};  // beyond the mark, in pixels
 
 bool hits(const Box& box, const std::vector<Box>& others) {
   return std::any_of(others.begin(), others.end(), [&](const Box& other) { return overlap(box, other); });
@@ -59,11 +59,12 @@ double text_width(const std::string& text, double font_size) {
 }
 
 std::optional<Label> LabelPlaces::place(double x, double y, double radius, const std::string& text,
-                                        bool far) {
+                                        Reach reach_of_text) {
   const double width = text_width(text, font_size_);
+  const bool clear = reach_of_text == Reach::kClear;
   std::optional<Candidate> second_best;  // over a line
   for (const double ring : kRings) {
-    if (ring > 0 && !far) break;
+    if (ring > 0 && !clear) break;
     for (int i = 0; i < kDirections; ++i) {
       // Right, up and right, up ... : from the right, both ways round.
       const int step = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
@@ -84,7 +85,7 @@ std::optional<Label> LabelPlaces::place(double x, double y, double radius, const
         taken_.push_back(c.box);
         return c.label;
       }
-      if (!second_best) second_best = c;
+      if (!clear && !second_best) second_best = c;
     }
   }
   if (!second_best) return std::nullopt;

@@ -23,14 +23,19 @@ struct Label {
 /// Where text is so far, and where it may go.
 class LabelPlaces {
  public:
+  enum class Reach {
+    kBeside,  ///< at the mark, where need be over what is to be avoided
+    kClear,   ///< at the mark or, with a line to it, a little away; over nothing
+  };
+
   LabelPlaces(const Box& inside, double font_size) : inside_(inside), font_size_(font_size) {}
 
   void occupy(const Box& box) { taken_.push_back(box); }
   /// To be avoided, not forbidden: a line, as boxes along it.
   void avoid(const Box& box) { avoided_.push_back(box); }
 
-  /// A place for text by a mark; `far`: also at a distance, with a line to it. Nothing where there is none.
-  std::optional<Label> place(double x, double y, double radius, const std::string& text, bool far);
+  /// A place for text by a mark. Nothing where there is none.
+  std::optional<Label> place(double x, double y, double radius, const std::string& text, Reach reach);
 
  private:
   Box inside_;

@@ -12,7 +12,6 @@
 namespace spectile::report {
 namespace {
 
-constexpr const char* kSpace = "\xC2\xA0";  // does not break
 constexpr std::array kLevels = {MemoryLevel::kCache, MemoryLevel::kMemory};
 
 int rank_of(const BenchmarkMachine& machine, const std::string& isa) {
@@ -55,13 +54,10 @@ std::string limit_in_words(const BenchmarkReport& report, const OperationSpeed& 
 
 Html fraction_cell(double fraction) {
   if (!std::isfinite(fraction)) return html(kDash);
-  return {fmt::format("<span class=\"bar\" aria-hidden=\"true\"><i style=\"width:{:.1f}%\"></i></span> {}",
-                      100 * std::clamp(fraction, 0.0, 1.0), percent(fraction))};
-}
-
-std::string with_unit(double value, const std::string& unit) {
-  return number(value, Zeros::kDrop) +
-         (unit.empty() || value == 0 || !std::isfinite(value) ? "" : kSpace + unit);
+  return {
+      fmt::format("<span class=\"fraction\"><span class=\"bar\" aria-hidden=\"true\"><i "
+                  "style=\"width:{:.1f}%\"></i></span> <span class=\"share\">{}</span></span>",
+                  100 * std::clamp(fraction, 0.0, 1.0), percent(fraction))};
 }
 
 /// What binds it, and why its limit is not reached.
@@ -77,9 +73,9 @@ std::vector<Html> cells_of(const BenchmarkReport& report, const OperationSpeed& 
   if (full) cells.insert(cells.end(), {html(o.isa), html(fmt::format("{}", o.threads))});
   cells.insert(cells.end(), {html(with_prefix(o.items_per_second, o.item + "s/s")),
                              fraction_cell(o.fraction),
-                             {escaped(with_unit(o.error, o.error_unit)) +
+                             {escaped(quantity(o.error, o.error_unit)) +
                               (beyond ? " <span class=\"badge bad\">beyond</span>" : "")},
-                             html(o.bound == 0 ? "exact" : with_unit(o.bound, o.error_unit)),
+                             html(o.bound == 0 ? "exact" : quantity(o.bound, o.error_unit)),
                              html(with_prefix(o.bytes_per_second, "B/s")),
                              html("±" + percent(o.spread)),
                              limit_cell(report, o)});

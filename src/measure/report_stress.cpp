@@ -9,19 +9,15 @@
 namespace spectile::report {
 namespace {
 
-std::string with_unit(double value, const std::string& unit) {
-  return number(value, Zeros::kDrop) + (unit.empty() ? "" : "\xC2\xA0" + unit);
-}
-
 std::vector<Html> cells_of(const StressResult& s) {
   const Html verdict = is_beyond(s) ? Html{"<span class=\"badge bad\">beyond</span>"} : html("holds");
   return {{escaped(s.operation) + " <small>" + escaped(s.inputs) + "</small>"},
           verdict,
-          html(s.bound == 0 ? "exact" : with_unit(s.bound, s.unit)),
-          html(with_unit(s.worst, s.unit)),
+          html(s.bound == 0 ? "exact" : quantity(s.bound, s.unit)),
+          html(quantity(s.worst, s.unit)),
           html(count_text(s.cases)),
           html(count_text(s.beyond)),
-          html(s.worst_case.empty() ? kDash : s.worst_case)};
+          {s.worst_case.empty() ? kDash : "<small>" + escaped(s.worst_case) + "</small>"}};
 }
 
 }  // namespace

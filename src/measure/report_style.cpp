@@ -65,6 +65,7 @@ caption { text-align: left; color: var(--soft); padding: 0.5rem 0.6rem; }
 /* As wide as the box, not as the table, and there wherever that has scrolled to. */
 caption span { display: inline-block; position: sticky; left: 0.6rem; max-width: min(44rem, calc(100vw - 3rem)); }
 small { display: block; color: var(--soft); font-size: 0.93em; font-weight: 400; }
+td small { min-width: 14rem; }
 tr.beyond small { color: inherit; }
 th, td { padding: 0.32rem 0.6rem; text-align: right; vertical-align: baseline; white-space: nowrap; border-top: 1px solid var(--line); font-weight: 400; }
 th.words, td.words { text-align: left; }
@@ -83,6 +84,8 @@ tr.beyond > *, tr.beyond > th:first-child { color: var(--red); background: var(-
 .badge.best { color: var(--green); }
 .badge.bad { color: var(--red); }
 .bar { display: inline-block; width: 2.5rem; height: 0.7em; background: var(--line); border-radius: 2px; overflow: hidden; }
+.fraction { white-space: nowrap; }
+.share { display: inline-block; min-width: 3.4em; text-align: right; }
 .bar i { display: block; height: 100%; background: var(--bar); }
 
 @media (min-width: 48rem) {
@@ -109,9 +112,13 @@ tr.beyond > *, tr.beyond > th:first-child { color: var(--red); background: var(-
   .scroll { overflow: visible; border: 0; }
   table { font-size: 7.5pt; }
   th, td { white-space: normal; padding: 1.2pt 3pt; }
-  td.words, tr > th:first-child { position: static; min-width: 0; max-width: none; }
+  th.words, td.words { overflow-wrap: normal; }
+  td small { min-width: 0; }
+  .badge { font-size: 1em; padding: 0 0.25em; }
+  td.words, tr > th:first-child { position: static; min-width: 0; max-width: none; overflow-wrap: normal; }
   thead { display: table-header-group; }
   .bar { width: 2rem; }
+  .bar, .share { vertical-align: middle; }
   caption span { position: static; max-width: none; }
   /* On paper nothing can be opened. */
   details::details-content { content-visibility: visible; display: block; height: auto; }

@@ -137,6 +137,11 @@ std::string number(double value, Zeros zeros) {
   return sign + (decimals > 0 ? trimmed(text) : grouped(text));
 }
 
+std::string quantity(double value, const std::string& unit) {
+  const bool alone = unit.empty() || value == 0 || !std::isfinite(value);
+  return number(value, Zeros::kDrop) + (alone ? "" : kSpace + unit);
+}
+
 std::string with_prefix(double value, const std::string& unit) {
   if (!std::isfinite(value)) return kDash;
   constexpr std::array<std::pair<int, const char*>, 5> kPrefixes = {

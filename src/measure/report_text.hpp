@@ -27,6 +27,8 @@ enum class Zeros { kKeep, kDrop };
 /// Three significant digits: 0.0123, 12.3, 12 300, 1.23×10⁻⁷. Zeros after the point tell of precision; those
 /// of round numbers, as bounds and ticks are, are dropped.
 std::string number(double value, Zeros zeros = Zeros::kKeep);
+/// With its unit, but for 0: "0.53 u". Trailing zeros are dropped.
+std::string quantity(double value, const std::string& unit);
 /// With a prefix: "12.3 GB/s" for 1.23e10 and "B/s".
 std::string with_prefix(double value, const std::string& unit);
 /// "83 %", "0.42 %".

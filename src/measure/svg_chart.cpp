@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/measure/chart_head.hpp"
 #include "src/measure/chart_labels.hpp"
 #include "src/measure/chart_marks.hpp"
 #include "src/measure/log_axis.hpp"
@@ -53,8 +54,7 @@ class Drawing {
 
  private:
   bool range();
-  void titles();
-  void legend();
+  void head();
   void axes();
   void place_marks();
   void frontier();
@@ -105,60 +105,29 @@ bool Drawing::range() {
   return any;
 }
 
-/// Title lines of a chart that stands alone, broken between words.
-void Drawing::titles() {
+/// What stands above the plot, where no mark can be.
+void Drawing::head() {
   height_ = 6;
-  if (form_ != ChartForm::kAlone) return;
-  const double font = 1.15 * f_.font;
-  std::string line;
-  const auto flush = [&] {
-    height_ += 1.35 * font;
-    text(12, height_, "start", line, fmt::format(" font-size=\"{:.1f}\" font-weight=\"600\"", font).c_str());
-    line.clear();
+  const auto add = [&](const Block& block) {
+    body_ += fmt::format("<g transform=\"translate(0 {:.1f})\">\n{}</g>\n", height_, block.code);
+    height_ += block.height;
   };
-  for (std::size_t at = 0; at < chart_.title.size();) {
-    const std::size_t end = std::min(chart_.title.find(' ', at), chart_.title.size());
-    const std::string word = chart_.title.substr(at, end - at);
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (!line.empty() && text_width(longer, font) > f_.width - 24) flush();
-    line = line.empty() ? word : line + " " + word;
-    at = end + 1;
-  }
-  if (!line.empty()) flush();
-  height_ += 6;
-}
-
-/// One entry a series and one for the frontier, in rows above the plot, where no mark can be.
-void Drawing::legend() {
-  constexpr double kKey = 24;
-  double x = 12;
-  double y = height_ + 0.75 * line_height_;
-  const auto entry = [&](const std::string& name, const std::string& key) {
-    const double width = kKey + text_width(name, f_.font) + 14;
-    if (x > 12 && x + width > f_.width - 4) {
-      x = 12;
-      y += line_height_;
-    }
-    body_ +=
-        fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g>\n", x + 8, y - 0.34 * f_.font, key);
-    text(x + kKey, y, "start", name);
-    x += width;
-  };
-  bool any = false;
+  if (form_ == ChartForm::kAlone) add(title_block(chart_.title, f_.width, 1.15 * f_.font));
+  std::vector<LegendEntry> entries;
   for (const ChartSeries& series : chart_.series) {
     if (std::none_of(series.marks.begin(), series.marks.end(), drawable)) continue;
-    entry(series.name, fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"0.8\">{}</g>",
-                                   color_of(series.style), kOutline, shape_of(series.style, f_.radius)));
-    any = true;
+    entries.push_back(
+        {series.name, fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"0.8\">{}</g>",
+                                  color_of(series.style), kOutline, shape_of(series.style, f_.radius))});
   }
   if (!chart_.frontier.empty()) {
-    entry(chart_.frontier,
-          fmt::format(
-              "<path class=\"frontier\" d=\"M-9 0H9\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"/>",
-              kFrontier));
-    any = true;
+    entries.push_back(
+        {chart_.frontier,
+         fmt::format(
+             "<path class=\"frontier\" d=\"M-9 0H9\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"/>",
+             kFrontier)});
   }
-  height_ = any ? y + 0.6 * line_height_ : height_;
+  add(legend_block(entries, f_.width, f_.font));
 }
 
 void Drawing::axes() {
@@ -223,7 +192,7 @@ void Drawing::frontier() {
   staircase_[1] = staircase_[0];  // the first step comes down from the top
   staircase_.emplace_back(right_, staircase_.back().second);
   std::string points;
-  for (const auto& [x, y] : staircase_) points += fmt::format(" {:.1f},{:.1f}", x, y);
+  for (const auto& [x, y] : staircase_) points += fmt::format(" {:.2f},{:.2f}", x, y);
   body_ += fmt::format(
       "<polyline class=\"frontier\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\" stroke-opacity=\"0.75\" "
       "points=\"{}\"/>\n",
@@ -235,7 +204,7 @@ void Drawing::series_lines() {
     if (!series.line) continue;
     std::string points;
     for (const ChartMark& mark : series.marks) {
-      if (drawable(mark)) points += fmt::format(" {:.1f},{:.1f}", x_axis_->at(mark.x), y_of(mark.y));
+      if (drawable(mark)) points += fmt::format(" {:.2f},{:.2f}", x_axis_->at(mark.x), y_of(mark.y));
     }
     if (points.empty()) continue;
     body_ += fmt::format(
@@ -265,14 +234,16 @@ void Drawing::labels() {
     words += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", label.x, label.y,
                          label.anchor, escaped(label.text));
   };
-  // Names first, of what matters most; what finds no room for its name has its number, or the table below.
+  // Names first, of what matters most; what finds no room for its name has its number, or the table below. A
+  // name must not cover the frontier; a number, being short, may.
   std::vector<const Placed*> unnamed;
   for (const bool frontier : {true, false}) {
     for (const Placed& p : placed_) {
       const bool named = !p.mark->label.empty() && (p.mark->frontier || p.style == 0);
       if (p.mark->frontier != frontier) continue;
       const auto label =
-          named ? places.place(p.x, p.y, kReach * p.radius, p.mark->label, frontier) : std::nullopt;
+          named ? places.place(p.x, p.y, kReach * p.radius, p.mark->label, LabelPlaces::Reach::kClear)
+                : std::nullopt;
       if (label) {
         write(p, *label);
       } else {
@@ -282,7 +253,8 @@ void Drawing::labels() {
   }
   for (const Placed* p : unnamed) {
     if (p->mark->number.empty()) continue;
-    const auto label = places.place(p->x, p->y, kReach * p->radius, p->mark->number, false);
+    const auto label =
+        places.place(p->x, p->y, kReach * p->radius, p->mark->number, LabelPlaces::Reach::kBeside);
     if (label) write(*p, *label);
   }
   body_ += fmt::format("<g fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\">\n{}</g>\n", kFrontier, leaders);
@@ -305,8 +277,7 @@ void Drawing::marks() {
 
 std::string Drawing::svg() {
   if (!range()) return {};
-  titles();
-  legend();
+  head();
   axes();
   place_marks();
   frontier();
