@@ -19,6 +19,10 @@ constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 /// Error of one value in units of u of the scale.
 double error_of(double value, double truth, double scale, double allowance, bool single, double bound) {
+  // Where an intermediate result may overflow, an infinity may become no number, and no number stays none.
+  if (!single && !std::isfinite(truth)) {
+    return std::isfinite(value) || (std::isnan(truth) && !std::isnan(value)) ? kBeyond : 0;
+  }
   if (std::isnan(truth)) return std::isnan(value) ? 0 : kBeyond;
   if (std::isinf(truth)) return value == truth ? 0 : kBeyond;
   if (single && std::abs(truth) >= kOverflow) {

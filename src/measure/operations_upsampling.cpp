@@ -73,7 +73,7 @@ std::function<double(const double*, const double*, double)> mixture_error(
           scale[row] = sum * largest;
         }
       },
-      3, false, 6);
+      5 * std::max(1.0, largest), false, 6);  // two differences and three products, each times a basis
 }
 
 std::shared_ptr<const std::vector<double>> basis_of(const Upsampler& upsampler) {
@@ -193,11 +193,22 @@ void add_sigmoid(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     thread_local std::vector<std::uint64_t> unsolved;
     unsolved.resize(a.blocks);
     k.sigmoid_solve(c, rgb, upsampler->sigmoid()->table, unsolved.data(), a.n());
+    // What is reported is marked for the judge.
+    for (std::size_t i = 0; i < a.n(); ++i) {
+      if (unsolved[i / kLanes] == 0) {
+        i += kLanes - 1;
+      } else if ((unsolved[i / kLanes] >> (i % kLanes) & 1U) != 0) {
+        c[0][i] = std::numeric_limits<float>::quiet_NaN();
+      }
+    }
   };
   const kernels::SigmoidTable table = model.table;
+  const bool has_cube = model.has_cube;
   solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
     if (!finite(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
     if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kNotJudged;
+    // Bands that have no sigmoid for some colours report them.
+    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kNotJudged;
     double sum[3] = {0, 0, 0};
     for (std::size_t b = 0; b < bands; ++b) {
       const double s =
@@ -269,14 +280,15 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
     moved.resize(a.blocks);
     k.limit_gamut(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());
   };
-  op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
+  op.error = [=](const double* rgb, const double* out, double tiny) {
     if (!finite(rgb)) return kNotJudged;
     const double most = std::max({std::abs(rgb[0]), std::abs(rgb[1]), std::abs(rgb[2]), 1.0});
     if (most > 1e30) return kNotJudged;
     double before = 0;
     double after = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(out[k] >= 0 && out[k] <= 1)) return std::numeric_limits<double>::infinity();
+      if (!(out[k] >= (rgb[k] < 0 ? 0 : -tiny) && out[k] <= 1))
+        return std::numeric_limits<double>::infinity();
       before += static_cast<double>(weights[k]) * rgb[k];
       after += static_cast<double>(weights[k]) * out[k];
     }
