@@ -38,10 +38,13 @@ inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexce
   return limit_below(lowest, sample);
 }
 
-/// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at.
+/// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at. The limit comes
+/// as a number: where GCC 12 passes a vector to a function of its own, it forgets to clear the registers'
+/// upper parts at the end, and every caller's scalar code then takes many times as long.
 template <class Put>
-inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, F32 lowest,
+inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, float least,
                         std::size_t bands, Put put) noexcept {
+  const F32 lowest(least);
   for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
     Mixture m[kGroup];
     for (std::size_t j = 0; j < kGroup; ++j) {
@@ -59,14 +62,13 @@ inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* 
 
 void smits_blocks(float* dst, const float* const rgb[3], const float* table, float lowest, std::size_t bands,
                   std::size_t blocks, bool streaming) noexcept {
-  const F32 low(lowest);
   for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
     if (streaming) {
-      smits_lanes(rgb, block * kLanes, table, low, bands, [dst](std::size_t band, std::size_t lane, F32 v) {
-        stream(dst + band * kLanes + lane, v);
-      });
+      smits_lanes(
+          rgb, block * kLanes, table, lowest, bands,
+          [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
     } else {
-      smits_lanes(rgb, block * kLanes, table, low, bands,
+      smits_lanes(rgb, block * kLanes, table, lowest, bands,
                   [dst](std::size_t band, std::size_t lane, F32 v) { store(dst + band * kLanes + lane, v); });
     }
   }
@@ -86,7 +88,7 @@ inline void smits_rows(void* const* rows, const float* const rgb[3], const float
   const F32 low(lowest);
   const std::size_t whole = n / kLanes * kLanes;
   for (std::size_t at = 0; at < whole; at += kLanes) {
-    smits_lanes(rgb, at, table, low, bands, [rows, at](std::size_t band, std::size_t lane, F32 v) {
+    smits_lanes(rgb, at, table, lowest, bands, [rows, at](std::size_t band, std::size_t lane, F32 v) {
       put_sample(static_cast<Sample*>(rows[band]) + at + lane, v);
     });
   }
