@@ -30,6 +30,7 @@ std::vector<Numbered> ways_of(const BenchmarkReport& report, const std::string& 
   std::stable_sort(ways.begin(), known,
                    [](const WaySpeed* a, const WaySpeed* b) { return a->nanoseconds < b->nanoseconds; });
   std::vector<Numbered> out;
+  out.reserve(ways.size());
   for (const WaySpeed* way : ways) out.push_back({way, static_cast<int>(out.size()) + 1});
   return out;
 }

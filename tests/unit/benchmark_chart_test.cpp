@@ -206,6 +206,16 @@ TEST(BenchmarkChart, PlotOfAJobStandsAlone) {
   EXPECT_THAT(svg, HasSubstr("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"));
   EXPECT_THAT(svg, HasSubstr("nanoseconds a pixel, one thread"));
   EXPECT_EQ(marks_of(svg).size(), report.ways.size() / (std::size(kMadeUpJobs) * std::size(kMadeUpLights)));
+  // What the numbers stand for is said below.
+  const std::vector<std::string> numbers = pieces(svg, "<text class=\"number\"", "</text>");
+  EXPECT_GT(numbers.size(), 3U);
+  for (const std::string& number : numbers) {
+    const std::string words = number.substr(number.find('>') + 1);
+    const std::size_t at = svg.find("<title>" + words + ". ");
+    ASSERT_NE(at, std::string::npos) << words;
+    const std::size_t first = at + 9 + words.size();
+    EXPECT_THAT(svg, HasSubstr(">" + svg.substr(first, svg.find(':', first) - first) + "</text>"));
+  }
   // The textbook is the heavy cross, in every chart.
   EXPECT_EQ(pieces(svg, "<g class=\"mark s0\"", ">").size(), 3U);
   EXPECT_EQ(benchmark_plot(report, kMadeUpJobs[0], "no such light"), "");
