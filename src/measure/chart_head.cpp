@@ -30,8 +30,14 @@ Block title_block(const std::string& text, double width, double font_size) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string word = text.substr(at, end - at);
-    if (!line.empty() && text_width(line + " " + word, font_size) > width - 2 * kLeft) flush();
-    line += line.empty() ? word : " " + word;
+    std::string longer = line;
+    if (!line.empty()) longer += ' ';
+    longer += word;
+    if (!line.empty() && text_width(longer, font_size) > width - 2 * kLeft) {
+      flush();
+      longer = word;
+    }
+    line = longer;
     at = end + 1;
   }
   if (!line.empty()) flush();

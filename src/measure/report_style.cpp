@@ -67,7 +67,7 @@ caption span { display: inline-block; position: sticky; left: 0.6rem; max-width:
 small { display: block; color: var(--soft); font-size: 0.93em; font-weight: 400; }
 td small { min-width: 14rem; }
 tr.beyond small { color: inherit; }
-th, td { padding: 0.32rem 0.6rem; text-align: right; vertical-align: baseline; white-space: nowrap; border-top: 1px solid var(--line); font-weight: 400; }
+th, td { padding: 0.32rem 0.45rem; text-align: right; vertical-align: baseline; white-space: nowrap; border-top: 1px solid var(--line); font-weight: 400; }
 th.words, td.words { text-align: left; }
 thead th { font-weight: 600; background: var(--band); }
 tbody th { text-align: left; }
@@ -83,7 +83,7 @@ tr.beyond > *, tr.beyond > th:first-child { color: var(--red); background: var(-
 .badge { display: inline-block; font-size: 0.8rem; font-weight: 600; line-height: 1.3; padding: 0 0.4em; border: 1px solid currentColor; border-radius: 4px; white-space: nowrap; }
 .badge.best { color: var(--green); }
 .badge.bad { color: var(--red); }
-.bar { display: inline-block; width: 2.5rem; height: 0.7em; background: var(--line); border-radius: 2px; overflow: hidden; }
+.bar { display: inline-block; width: 2rem; height: 0.7em; background: var(--line); border-radius: 2px; overflow: hidden; }
 .fraction { white-space: nowrap; }
 .share { display: inline-block; min-width: 3.4em; text-align: right; }
 .bar i { display: block; height: 100%; background: var(--bar); }
@@ -96,6 +96,7 @@ tr.beyond > *, tr.beyond > th:first-child { color: var(--red); background: var(-
   svg.narrow { display: none; }
   tr > th:first-child { min-width: 12rem; max-width: 22rem; }
   .bar { width: 5rem; }
+  th, td { padding: 0.32rem 0.6rem; }
 }
 
 @page { margin: 14mm; }

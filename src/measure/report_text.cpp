@@ -88,7 +88,8 @@ struct Rounded {
 Rounded rounded(double value) {
   const std::string text = fmt::format("{:.{}e}", value, kDigits - 1);
   const std::size_t e = text.find('e');
-  return {std::strtod(text.substr(0, e).c_str(), nullptr), std::atoi(text.c_str() + e + 1)};
+  return {std::strtod(text.substr(0, e).c_str(), nullptr),
+          static_cast<int>(std::strtol(text.c_str() + e + 1, nullptr, 10))};
 }
 
 }  // namespace
@@ -164,7 +165,7 @@ std::string percent(double fraction) {
 std::string bytes_text(std::uint64_t bytes) {
   if (bytes == 0) return kDash;
   constexpr std::array<const char*, 5> kUnits = {"B", "KiB", "MiB", "GiB", "TiB"};
-  double value = static_cast<double>(bytes);
+  auto value = static_cast<double>(bytes);
   std::size_t unit = 0;
   for (; value >= 1024 && unit + 1 < kUnits.size(); ++unit) value /= 1024;
   return number(value, Zeros::kDrop) + kSpace + kUnits[unit];

@@ -30,6 +30,7 @@ std::vector<Numbered> ways_of(const BenchmarkReport& report, const std::string& 
   std::stable_sort(ways.begin(), known,
                    [](const WaySpeed* a, const WaySpeed* b) { return a->nanoseconds < b->nanoseconds; });
   std::vector<Numbered> out;
+  out.reserve(ways.size());
   for (const WaySpeed* way : ways) out.push_back({way, static_cast<int>(out.size()) + 1});
   return out;
 }
@@ -137,7 +138,8 @@ std::string table_of(const std::vector<Numbered>& ways, const std::vector<std::s
 /// How often the textbook's time the fastest way takes that is no worse, in words; empty where there is none.
 std::string against_textbook(const std::vector<Numbered>& ways) {
   std::string out;
-  for (const auto& [textbook, place] : ways) {
+  for (const Numbered& entry : ways) {
+    const WaySpeed* textbook = entry.way;
     if (textbook->family != kTextbook || !(textbook->nanoseconds > 0)) continue;
     const auto better = std::find_if(ways.begin(), ways.end(), [&](const Numbered& n) {
       return n.way->family != kTextbook && n.way->error.mean <= textbook->error.mean &&

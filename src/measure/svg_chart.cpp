@@ -54,12 +54,14 @@ class Drawing {
 
  private:
   bool range();
+  void add(const Block& block);
   void head();
   void axes();
   void place_marks();
   void frontier();
   void series_lines();
   void labels();
+  void foot(std::vector<const Placed*> numbered);
   void marks();
   double y_of(double value) const { return value > 0 ? y_axis_->at(value) : zero_y_; }
   void text(double x, double y, const char* anchor, const std::string& words, const char* more = "");
@@ -105,13 +107,15 @@ bool Drawing::range() {
   return any;
 }
 
+/// Below what there is so far.
+void Drawing::add(const Block& block) {
+  body_ += fmt::format("<g transform=\"translate(0 {:.1f})\">\n{}</g>\n", height_, block.code);
+  height_ += block.height;
+}
+
 /// What stands above the plot, where no mark can be.
 void Drawing::head() {
   height_ = 6;
-  const auto add = [&](const Block& block) {
-    body_ += fmt::format("<g transform=\"translate(0 {:.1f})\">\n{}</g>\n", height_, block.code);
-    height_ += block.height;
-  };
   if (form_ == ChartForm::kAlone) add(title_block(chart_.title, f_.width, 1.15 * f_.font));
   std::vector<LegendEntry> entries;
   for (const ChartSeries& series : chart_.series) {
@@ -133,7 +137,7 @@ void Drawing::head() {
 void Drawing::axes() {
   height_ += line_height_;
   text(12, height_ - 0.2 * f_.font, "start", "↑ " + chart_.y_label);
-  top_ = height_ + 0.5 * f_.font;
+  top_ = height_ + 0.8 * f_.font;
   bottom_ = top_ + f_.plot_height;
   right_ = f_.width - 16;
   x_axis_.emplace(lowest_x_, highest_x_, f_.left, right_);
@@ -237,6 +241,7 @@ void Drawing::labels() {
   // Names first, of what matters most; what finds no room for its name has its number, or the table below. A
   // name must not cover the frontier; a number, being short, may.
   std::vector<const Placed*> unnamed;
+  std::vector<const Placed*> numbered;
   for (const bool frontier : {true, false}) {
     for (const Placed& p : placed_) {
       const bool named = !p.mark->label.empty() && (p.mark->frontier || p.style == 0);
@@ -255,14 +260,33 @@ void Drawing::labels() {
     if (p->mark->number.empty()) continue;
     const auto label =
         places.place(p->x, p->y, kReach * p->radius, p->mark->number, LabelPlaces::Reach::kBeside);
-    if (label) write(*p, *label);
+    if (!label) continue;
+    write(*p, *label);
+    numbered.push_back(p);
   }
+  if (form_ == ChartForm::kAlone) foot(numbered);
   body_ += fmt::format("<g fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\">\n{}</g>\n", kFrontier, leaders);
   body_ += fmt::format(
       "<g class=\"halo\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
       "paint-order=\"stroke\">\n"
       "{}</g>\n",
       words);
+}
+
+/// What the numbers stand for, where there is no table to say it.
+void Drawing::foot(std::vector<const Placed*> numbered) {
+  std::stable_sort(numbered.begin(), numbered.end(),
+                   [](const Placed* a, const Placed* b) { return a->x < b->x; });
+  std::vector<LegendEntry> entries;
+  for (const Placed* p : numbered) {
+    if (p->mark->label.empty()) continue;
+    entries.push_back(
+        {p->mark->label, fmt::format("<text class=\"number\" x=\"10\" y=\"{:.1f}\" text-anchor=\"end\" "
+                                     "font-weight=\"600\">{}</text>",
+                                     0.34 * f_.font, escaped(p->mark->number))});
+  }
+  height_ += 0.4 * f_.font;
+  add(legend_block(entries, f_.width, f_.font));
 }
 
 void Drawing::marks() {

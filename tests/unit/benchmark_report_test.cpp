@@ -110,7 +110,7 @@ BenchmarkReport filled_with(double x, const std::string& text) {
   r.representations = {{text, false, text, 3, 1, x, x, {x, x, x}},
                        {text, false, text, 3, 2, 5.0, x, {0.5, x, x}}};
   r.stress = {{text, text, text, x, x, 10, 0, text}};
-  r.advice = {{text, text, text}};
+  r.advice = {{text, text, text}, {text, "", text}};
   return r;
 }
 
@@ -231,6 +231,20 @@ TEST(BenchmarkPage, HasEveryWayInATableAndInBothCharts) {
   EXPECT_EQ(count_of(full_page(), "<title>"), 1 + 2 * (full().ways.size() + full().representations.size()));
 }
 
+TEST(BenchmarkPage, ListsTheFastestWaysFirst) {
+  BenchmarkReport r;
+  for (const double ns : {30.0, kNan, 0.2, 400.0, 5.0}) {
+    r.ways.push_back(
+        {"job", "light", false, "family", fmt::format("at {}", ns), 0, ns, 0, 0, {1, 1, 1}, false});
+  }
+  const std::string page = benchmark_to_html(r);
+  std::vector<std::string> order;
+  for (const std::string& row : parts(page, "<span class=\"no\">", "</th>")) {
+    order.push_back(row.substr(17, 1) + row.substr(row.find("</svg>") + 6));
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("1 at 0.2", "2 at 5", "3 at 30", "4 at 400", "5 at nan"));
+}
+
 TEST(BenchmarkPage, HasEveryOperationAtEachLevel) {
   const std::string section = part(full_page(), "<section id=\"operations\">", "</section>");
   for (const char* level : {"second-level cache", "memory"}) {
@@ -255,8 +269,10 @@ TEST(BenchmarkPage, HasEveryOperationAtEachLevel) {
 TEST(BenchmarkPage, SetsAnOperationsShareAgainstTheLimitThatBindsIt) {
   BenchmarkReport r;
   r.machine.isas = {"sse4.2", "avx2"};
-  r.limits = {{"avx2", 1, MemoryLevel::kCache, 1e9, 2e9, 3e9, 84.2e9, 5e9, 6e9, 0},
-              {"avx2", 1, MemoryLevel::kMemory, 1e9, 2e9, 3e9, 7.7e9, 5e9, 6e9, 0}};
+  r.limits = {{"avx2", 1, MemoryLevel::kMemory, 1e9, 2e9, 3e9, 7.7e9, 5e9, 6e9, 0},
+              {"avx2", 2, MemoryLevel::kCache, 1e9, 2e9, 3e9, 8.8e9, 5e9, 6e9, 0},
+              {"sse4.2", 1, MemoryLevel::kCache, 1e9, 2e9, 3e9, 9.9e9, 5e9, 6e9, 0},
+              {"avx2", 1, MemoryLevel::kCache, 1e9, 2e9, 3e9, 84.2e9, 5e9, 6e9, 0}};
   r.operations = {{"arithmetic", "multiply", "avx2", 1, MemoryLevel::kCache, "lane", 1.23e9, 8e9, 0.01,
                    "copy", 0.83, 1.5, 1, "u", "two permutes"}};
   const std::string page = benchmark_to_html(r);
