@@ -145,6 +145,7 @@ struct BenchmarkReport {
 
 struct BenchmarkOptions {
   bool quick = false;                  ///< half a minute rather than minutes
+  bool memory = true;                  ///< also of what lies in memory, not in the caches
   bool speed = true;                   ///< limits, operations, ways, representations
   bool stress = false;                 ///< also the long form of the numbers' stress test
   std::vector<int> threads;            ///< 1, 2, 4 ... up to the cores where empty

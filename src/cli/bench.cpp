@@ -16,6 +16,7 @@ struct Arguments {
   bool stress = false;
   bool stress_only = false;
   bool json = false;
+  bool cache_only = false;
   bool quiet = false;
   std::string report;
   std::vector<int> threads;
@@ -124,6 +125,7 @@ Result<BenchmarkOptions> options_of(const Arguments& a) {
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
   out.speed = !a.stress_only;
+  out.memory = !a.cache_only;
   out.threads = a.threads;
   out.isas = a.isas;
   out.lights = a.lights;
@@ -201,7 +203,11 @@ void add_bench(CLI::App& app, int& exit) {
       ->add_option("--reflectances", a->reflectances,
                    "files of measured reflectances that errors are over (the 24 of the ColorChecker)")
       ->type_name("FILE");
-  command->add_option("--only", a->only, "only operations whose name contains this")->type_name("TEXT");
+  command
+      ->add_option("--only", a->only,
+                   "only operations whose name contains this ('' for all), and neither ways nor numbers")
+      ->type_name("TEXT");
+  command->add_flag("--cache-only", a->cache_only, "operations in the caches, not in memory");
   command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N");
   command->add_flag("-q,--quiet", a->quiet, "no progress bar");
   command->callback([a, &exit] { exit = run(*a); });

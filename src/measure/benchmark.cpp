@@ -118,6 +118,7 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
   for (const std::string& isa : isas) {
     const bool fastest = isa == isas.back();
     for (const MemoryLevel level : {MemoryLevel::kCache, MemoryLevel::kMemory}) {
+      if (level == MemoryLevel::kMemory && !options.memory) continue;
       for (const int count : threads) {
         // Threads and, in a hurry, memory are the fastest's alone; so is memory's bandwidth but for avx2's.
         const bool main = count == threads.front();
