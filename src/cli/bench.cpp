@@ -57,10 +57,15 @@ void print_operations(const BenchmarkReport& r) {
   }
 }
 
+/// A job's name, without what its truth is.
+std::string name_of(const std::string& job) {
+  return job.substr(0, job.find(';'));
+}
+
 void print_ways(const BenchmarkReport& r) {
   std::string heading;
   for (const WaySpeed& w : r.ways) {
-    const std::string now = fmt::format("{}: {}", w.job, w.light);
+    const std::string now = fmt::format("{}: {}", name_of(w.job), w.light);
     if (now != heading) {
       heading = now;
       fmt::print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.spiky ? " (spiky)" : "", "", "ns",
@@ -72,7 +77,7 @@ void print_ways(const BenchmarkReport& r) {
   if (!r.ways.empty()) fmt::print("\n* no other way is as fast and as accurate\n");
   std::string last;
   for (const BenchmarkAdvice& a : r.advice) {
-    const std::string now = fmt::format("{}: {}", a.job, a.light);
+    const std::string now = fmt::format("{}: {}", name_of(a.job), a.light);
     if (now != last) fmt::print("\n{}\n", now);
     last = now;
     fmt::print("  {}\n", a.sentence);

@@ -108,15 +108,15 @@ std::vector<BenchmarkAdvice> advice_on(const std::vector<WaySpeed>& ways) {
   for (const WaySpeed& w : ways) groups[{w.job, w.light}].push_back(&w);
   std::vector<BenchmarkAdvice> out;
   for (const auto& [key, group] : groups) {
-    const auto say = [&](std::string sentence) {
-      out.push_back({key.first, key.second, std::move(sentence)});
+    const BenchmarkAdvice about{key.first, key.second, {}};
+    const auto say = [&out, &about](std::string sentence) {
+      out.push_back({about.job, about.light, std::move(sentence)});
     };
     const WaySpeed* last = nullptr;
     double asked = 0;
-    std::string text;
     const auto flush = [&] {
       if (last == nullptr) return;
-      say(fmt::format("For a mean error below {}: {}, {:.3g} ns (mean {:.3g}, 95 % {:.3g}, maximum {:.3g}).",
+      say(fmt::format("For a mean error below {}: {}, {:.3g} ns (mean {:.3f}, 95 % {:.3f}, maximum {:.2f}).",
                       asked, last->name, last->nanoseconds, last->error.mean, last->error.percentile95,
                       last->error.maximum));
     };
@@ -131,7 +131,7 @@ std::vector<BenchmarkAdvice> advice_on(const std::vector<WaySpeed>& ways) {
         const WaySpeed* least = *std::min_element(
             group.begin(), group.end(),
             [](const WaySpeed* a, const WaySpeed* b) { return a->error.mean < b->error.mean; });
-        say(fmt::format("None has a mean error below {}: the least is {:.3g}, of {}, {:.3g} ns.", error,
+        say(fmt::format("None has a mean error below {}: the least is {:.3f}, of {}, {:.3g} ns.", error,
                         least->error.mean, least->name, least->nanoseconds));
         last = nullptr;
         break;

@@ -36,8 +36,15 @@ struct WayScene {
   std::uint64_t seed = 1;
 };
 
-inline constexpr const char* kRgbJob = "RGB texture, under a light, to a colour";
-inline constexpr const char* kFilmJob = "Spectral samples, under a light, to a film";
+inline constexpr const char* kRgbJob =
+    "RGB texture, under a light, to a colour; the truth is the measured reflectance under the light, summed "
+    "at "
+    "every nanometre in double, and all that a way is given is its RGB under D65";
+inline constexpr const char* kFilmJob =
+    "Spectral samples, under a light, to a film; the truth is the measured reflectance under the light, "
+    "summed at "
+    "every nanometre in double, and a way is given its averages over bands, or its values at drawn "
+    "wavelengths";
 
 /// Bands planned for a light, for the spectra that sigmoids make of colours of sRGB: none of the measured
 /// reflectances that errors are over. Errors: as make_plan().
