@@ -21,8 +21,11 @@ constexpr std::size_t kBlockLiterals = 65536;
 constexpr std::size_t kBlockSequences = 16384;
 // Bytes of a block at most, so that all counts stay far from overflow.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 28;
-// Two to this many bytes without a match make the search's steps one longer.
+// Two to this many bytes in which no string was found make the search's steps one longer, up to a limit.
 constexpr int kPatience = 8;
+constexpr std::size_t kMostMissed = std::size_t{1} << 16;
+// Runs from so many bytes on are black or constant parts.
+constexpr std::size_t kLongRun = 512;
 std::uint32_t load32(const std::uint8_t* at) {
   std::uint32_t v = 0;
   std::memcpy(&v, at, sizeof(v));
@@ -43,6 +46,14 @@ std::size_t hash(std::uint32_t v) {
 /// How many bytes at `a` equal those at `b`, before `end` of a.
 std::size_t equal_bytes(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* end) {
   const std::uint8_t* const start = a;
+  // Black parts are long: four words at a time, until they differ.
+  while (end - a >= 32) {
+    const std::uint64_t differences = (load64(a) ^ load64(b)) | (load64(a + 8) ^ load64(b + 8)) |
+                                      (load64(a + 16) ^ load64(b + 16)) | (load64(a + 24) ^ load64(b + 24));
+    if (differences != 0) break;
+    a += 32;
+    b += 32;
+  }
   while (end - a >= 8) {
     const std::uint64_t difference = load64(a) ^ load64(b);
     if (difference != 0) return static_cast<std::size_t>(a - start) + std::countr_zero(difference) / 8;
@@ -54,6 +65,18 @@ std::size_t equal_bytes(const std::uint8_t* a, const std::uint8_t* b, const std:
     ++b;
   }
   return static_cast<std::size_t>(a - start);
+}
+
+/// How many bytes before `a` equal those before `b`, up to `most`.
+std::size_t equal_bytes_before(const std::uint8_t* a, const std::uint8_t* b, std::size_t most) {
+  std::size_t n = 0;
+  while (most - n >= 8) {
+    const std::uint64_t difference = load64(a - n - 8) ^ load64(b - n - 8);
+    if (difference != 0) return n + static_cast<std::size_t>(std::countl_zero(difference)) / 8;
+    n += 8;
+  }
+  while (n < most && a[-1 - static_cast<std::ptrdiff_t>(n)] == b[-1 - static_cast<std::ptrdiff_t>(n)]) ++n;
+  return n;
 }
 
 }  // namespace
@@ -70,6 +93,9 @@ std::size_t RunDeflate::compress(std::span<const std::uint8_t> in, std::uint8_t*
   std::size_t block = 0;   // where the present block begins
   std::size_t anchor = 0;  // the first byte not yet in a sequence
   std::size_t literals = 0;
+  // Bytes looked through since a string was found. Long runs do not count: noise between black parts is
+  // noise.
+  std::size_t missed = 0;
   sequences_.clear();
   const auto end_block = [&](std::size_t end) {
     sequences_.push_back({static_cast<std::uint32_t>(end - anchor), 0, 0});
@@ -77,6 +103,7 @@ std::size_t RunDeflate::compress(std::span<const std::uint8_t> in, std::uint8_t*
     sequences_.clear();
     block = anchor = end;
     literals = 0;
+    missed = 0;
   };
   // A match is looked for where eight bytes can be read, and begins after the first byte.
   std::size_t i = 1;
@@ -92,16 +119,19 @@ std::size_t RunDeflate::compress(std::span<const std::uint8_t> in, std::uint8_t*
     const bool run = load64(bytes + i) == load64(bytes + i - 1);
     if (run) found = i - 1;
     if (!run && (i - found > kWindow || load32(bytes + found) != v)) {
-      i += 1 + ((i - anchor) >> kPatience);
+      const std::size_t step = 1 + (missed >> kPatience);
+      missed = std::min(missed + step, kMostMissed);
+      i += step;
       continue;
     }
     const std::size_t most = std::min(n, block + kBlockBytes);
     std::size_t length = 4 + equal_bytes(bytes + i + 4, bytes + found + 4, bytes + most);
-    while (i > anchor && found > 0 && bytes[i - 1] == bytes[found - 1]) {
-      --i;
-      --found;
-      ++length;
-    }
+    // What lies before it, too, as far as no sequence has it.
+    const std::size_t before = equal_bytes_before(bytes + i, bytes + found, std::min(i - anchor, found));
+    i -= before;
+    found -= before;
+    length += before;
+    if (!run || length < kLongRun) missed = 0;
     sequences_.push_back({static_cast<std::uint32_t>(i - anchor), static_cast<std::uint32_t>(length),
                           static_cast<std::uint32_t>(i - found)});
     literals += i - anchor;
