@@ -84,7 +84,8 @@ void LaneMemory::read(const Shape& shape, const std::byte* at, std::size_t plane
     const std::byte* const block = at + plane * plane_bytes + lane / kLanes * shape.block_bytes();
     for (std::size_t row = 0; row < shape.rows; ++row) {
       double& to = values[plane * shape.rows + row];
-      const std::size_t i = row * kLanes + lane % kLanes;
+      const std::size_t i =
+          shape.element == Element::kQuad ? lane % kLanes * shape.rows + row : row * kLanes + lane % kLanes;
       if (shape.element == Element::kMask) {
         std::uint64_t bits = 0;
         std::memcpy(&bits, block + row * sizeof(bits), sizeof(bits));

@@ -71,6 +71,7 @@ Result<std::vector<Operation>> lane_operations(const Bands& bands) {
   SPECTILE_TRY(add_reductions(out, bands));
   SPECTILE_TRY(add_upsampling(out, bands));
   SPECTILE_TRY(add_wavelengths(out));
+  SPECTILE_TRY(add_film(out, bands));
   add_conversions(out);
   return out;
 }

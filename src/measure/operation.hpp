@@ -16,7 +16,12 @@ namespace spectile::measure {
 
 using Random = std::mt19937_64;
 
-enum class Element { kFloat, kHalf, kMask };
+enum class Element {
+  kFloat,
+  kHalf,
+  kMask,  ///< a bit a lane
+  kQuad,  ///< floats, a lane's rows side by side: [kLanes][rows]
+};
 
 /// What a lane has in memory: planes of blocks [rows][kLanes].
 struct Shape {
@@ -103,6 +108,7 @@ void add_arithmetic(std::vector<Operation>& to);
 Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_wavelengths(std::vector<Operation>& to);
+Result<void> add_film(std::vector<Operation>& to, const Bands& bands);
 void add_conversions(std::vector<Operation>& to);
 
 }  // namespace spectile::measure

@@ -231,7 +231,8 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
     if (!operations) return operations.error();
     for (const Operation& op : *operations) {
       const bool on_bands = op.in.rows * op.out.rows > 1 || op.out.planes > 8 ||
-                            op.name.starts_with("sigmoid") || op.name.starts_with("relight");
+                            op.name.starts_with("sigmoid") || op.name.starts_with("relight") ||
+                            op.name.ends_with("on bands");
       if (!list.where.empty() && !on_bands) continue;
       auto known = std::find_if(found.begin(), found.end(),
                                 [&](const Found& f) { return f.result.operation == op.name; });
