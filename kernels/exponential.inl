@@ -8,13 +8,26 @@
 namespace spectile::kernels {
 namespace {
 
+/// Sum of c[k] x^k: even and odd powers apart, by Horner's rule in x^2, so that one chain need not wait for
+/// the other: (even) + (x * (odd)).
+template <std::size_t kTerms>
+inline F64 power_series(const double (&c)[kTerms], F64 x) noexcept {
+  constexpr std::size_t kEven = (kTerms - 1) / 2 * 2;
+  constexpr std::size_t kOdd = kTerms / 2 * 2 - 1;
+  const F64 square = x * x;
+  F64 even(c[kEven]);
+  F64 odd(c[kOdd]);
+  for (std::size_t k = kEven; k >= 2; k -= 2) even = even * square + F64(c[k - 2]);
+  for (std::size_t k = kOdd; k >= 3; k -= 2) odd = odd * square + F64(c[k - 2]);
+  return even + x * odd;
+}
+
 /// 2^t for t in [-1000, 1000]; NaN stays.
 inline F64 exp2_double(F64 t) noexcept {
   const F64 magic(kRoundMagic);
   const F64 shifted = t + magic;  // the integer nearest to t, in the low bits of the mantissa
   const F64 x = (t - (shifted - magic)) * F64(kLn2);
-  F64 p(kExpSeries[kExpTerms - 1]);
-  for (std::size_t k = kExpTerms - 1; k-- > 0;) p = p * x + F64(kExpSeries[k]);
+  const F64 p = power_series(kExpSeries, x);
   return bits_as<double>(bits_as<std::uint64_t>(p) + (bits_as<std::uint64_t>(shifted) << 52));
 }
 
@@ -28,8 +41,7 @@ inline F64 log2_double(F64 v) noexcept {
   e = xsimd::select(large, e + F64(1.0), e);
   const F64 s = (m - F64(1.0)) / (m + F64(1.0));
   const F64 z = s * s;
-  F64 p(kAtanhSeries[kAtanhTerms - 1]);
-  for (std::size_t k = kAtanhTerms - 1; k-- > 0;) p = p * z + F64(kAtanhSeries[k]);
+  const F64 p = power_series(kAtanhSeries, z);
   return e + (p * s) * F64(kTwoOverLn2);
 }
 

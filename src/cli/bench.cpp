@@ -19,6 +19,7 @@ struct Arguments {
   bool cache_only = false;
   bool quiet = false;
   std::string report;
+  std::string plot;
   std::vector<int> threads;
   std::vector<std::string> isas, lights, only, reflectances;
   std::uint64_t seed = 1;
@@ -150,6 +151,16 @@ Result<BenchmarkOptions> options_of(const Arguments& a) {
   return out;
 }
 
+/// The plot of the job whose truth is spectral, under the first light with lines, or else the first.
+std::string plot_of(const BenchmarkReport& r) {
+  const WaySpeed* chosen = nullptr;
+  for (const WaySpeed& w : r.ways) {
+    if (w.job != r.ways.back().job) continue;
+    if (chosen == nullptr || (w.spiky && !chosen->spiky)) chosen = &w;
+  }
+  return chosen == nullptr ? std::string() : benchmark_plot(r, chosen->job, chosen->light);
+}
+
 int run(const Arguments& a) {
   catch_signals();
   auto options = options_of(a);
@@ -159,6 +170,9 @@ int run(const Arguments& a) {
   if (!report) return complain(report.error());
   if (!a.report.empty()) {
     if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
+  }
+  if (!a.plot.empty()) {
+    if (const int bad = write_file(a.plot, plot_of(*report)); bad != kOk) return bad;
   }
   int beyond = 0;
   if (a.json) {
@@ -195,6 +209,11 @@ void add_bench(CLI::App& app, int& exit) {
   command->add_flag("--json", a->json, "print the whole report as JSON");
   command->add_option("--report", a->report, "write the report as one page of HTML, with its plots")
       ->type_name("OUT.html");
+  command
+      ->add_option(
+          "--plot", a->plot,
+          "write one plot as SVG: samples to a film, error against time, under the first light with lines")
+      ->type_name("OUT.svg");
   command->add_option("--threads", a->threads, "numbers of threads to measure (1, 2, 4 ... up to the cores)")
       ->type_name("N")
       ->delimiter(',');

@@ -24,14 +24,14 @@ std::vector<double> on_grid(const F& f) {
   return out;
 }
 
-/// Somewhere three times the mean over the 40 nm around it, where there is light to speak of.
+/// Somewhere twice the mean over the 40 nm around it, where there is light to speak of.
 bool has_lines(const std::vector<double>& light) {
   constexpr std::size_t kHalf = 20;
   const double most = *std::max_element(light.begin(), light.end());
   for (std::size_t i = kHalf; i + kHalf < light.size(); ++i) {
     double sum = 0;
     for (std::size_t k = i - kHalf; k <= i + kHalf; ++k) sum += light[k];
-    if (light[i] > 0.2 * most && light[i] > 3 * sum / (2 * kHalf + 1)) return true;
+    if (light[i] > 0.2 * most && light[i] > 2 * sum / (2 * kHalf + 1)) return true;
   }
   return false;
 }

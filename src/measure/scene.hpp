@@ -18,7 +18,7 @@ struct TrueLight {
   MeasuredSpectrum spectrum;
   std::vector<double> weights[3];  ///< matching function times light at 360, 361, ... 830 nm
   Xyz white{};
-  bool spiky = false;  ///< somewhere three times its mean over the 40 nm around
+  bool spiky = false;  ///< somewhere twice its mean over the 40 nm around
 };
 
 /// Reflectances as they were measured, limited to [0, 1], constant beyond their ends.

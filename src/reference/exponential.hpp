@@ -2,18 +2,31 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels/exponential_constants.hpp"
 
 namespace spectile::reference {
 
+/// Sum of c[k] x^k: even and odd powers apart, each by Horner's rule in x^2.
+template <std::size_t kTerms>
+double power_series(const double (&c)[kTerms], double x) {
+  constexpr std::size_t kEven = (kTerms - 1) / 2 * 2;
+  constexpr std::size_t kOdd = kTerms / 2 * 2 - 1;
+  const double square = x * x;
+  double even = c[kEven];
+  double odd = c[kOdd];
+  for (std::size_t k = kEven; k >= 2; k -= 2) even = even * square + c[k - 2];
+  for (std::size_t k = kOdd; k >= 3; k -= 2) odd = odd * square + c[k - 2];
+  return even + x * odd;
+}
+
 /// 2^t for t in [-1000, 1000]; NaN stays.
 inline double exp2_double(double t) {
   const double shifted = t + kernels::kRoundMagic;
   const double x = (t - (shifted - kernels::kRoundMagic)) * kernels::kLn2;
-  double p = kernels::kExpSeries[kernels::kExpTerms - 1];
-  for (std::size_t k = kernels::kExpTerms - 1; k-- > 0;) p = p * x + kernels::kExpSeries[k];
+  const double p = power_series(kernels::kExpSeries, x);
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) +
                                (std::bit_cast<std::uint64_t>(shifted) << 52));
 }
@@ -29,8 +42,7 @@ inline double log2_double(double v) {
   }
   const double s = (m - 1.0) / (m + 1.0);
   const double z = s * s;
-  double p = kernels::kAtanhSeries[kernels::kAtanhTerms - 1];
-  for (std::size_t k = kernels::kAtanhTerms - 1; k-- > 0;) p = p * z + kernels::kAtanhSeries[k];
+  const double p = power_series(kernels::kAtanhSeries, z);
   return e + (p * s) * kernels::kTwoOverLn2;
 }
 
