@@ -159,9 +159,9 @@ TEST(Bench, InstructionSetsThatDoNotRunHereAreRefused) {
 }
 
 TEST(Bench, ReportsThatCannotBeWrittenAreSaid) {
-  const test::TempFolder folder;
-  // The stress alone takes the least time.
-  expect_refused({"--stress-only", "--report", folder / "missing/out.html"}, 3, "out.html");
+  if (!fs::exists("/sys")) GTEST_SKIP() << "there is no /sys here";
+  // Where nobody may make a file. The stress alone takes the least time.
+  expect_refused({"--stress-only", "--report", "/sys/out.html"}, 3, "/sys/out.html");
 }
 
 TEST(Bench, InterruptEndsItWithoutOutput) {
