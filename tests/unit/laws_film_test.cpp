@@ -149,10 +149,11 @@ RC_GTEST_PROP(FilmLaws, RadianceAndRangeTimesAPowerOfTwoScaleThePictureExactly, 
 }
 
 RC_GTEST_PROP(FilmLaws, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
-  // Contributions are exact down to 2^(range - 51), 2^-51 here: a curve's least positive value between its
-  // nanometres' eighths, 1e-7, times radiance over density above 1 and a weight of 1 is well above that.
+  // Contributions are exact down to 2^(range - 51), 2^-35 here, which is 3e-11. The curves' least positive
+  // value at eighths of a nanometre is above 5e-8; times radiance over density, at least 400, a quarter for
+  // the four wavelengths, 1/107 and 2^-6 leave above 5e-10.
   FilmOptions o = small_film();
-  o.range = 0 + 16;
+  o.range = 16;
   o.sensors.push_back({"canon-eos-5d-mkii", *Sensor::named("canon-eos-5d-mkii")});
   const std::size_t n = std::min<std::size_t>(drawn_lanes(), 400);
   FilmSamples samples(n);
