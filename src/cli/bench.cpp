@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "src/cli/common.hpp"
 
@@ -22,7 +24,7 @@ struct Arguments {
   std::string plot;
   std::vector<int> threads;
   std::vector<std::string> isas, lights, only, reflectances;
-  std::uint64_t seed = 1;
+  std::int64_t seed = 1;
 };
 
 std::string rate(double per_second) {
@@ -117,13 +119,39 @@ int print_stress(const BenchmarkReport& r) {
   return beyond;
 }
 
+int cannot_write(const std::string& path, int error) {
+  fmt::print(stderr, "spectile: cannot write {}: {}\n", path, std::generic_category().message(error));
+  return error == ENOENT || error == ENOTDIR || error == EISDIR ? kBadInput : kNoRoom;
+}
+
+/// The name that a file has until it is whole.
+std::string part_of(const std::string& path) {
+  return path + ".part";
+}
+
+/// Whether a file can be made there, before minutes are spent on what goes into it.
+int check_writable(const std::string& path) {
+  if (path.empty()) return kOk;
+  if (std::filesystem::is_directory(path)) return cannot_write(path, EISDIR);
+  std::FILE* const file = std::fopen(part_of(path).c_str(), "wb");
+  if (file == nullptr) return cannot_write(path, errno);
+  std::fclose(file);
+  std::remove(part_of(path).c_str());
+  return kOk;
+}
+
+/// Whole or not at all.
 int write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (file) return kOk;
-  fmt::print(stderr, "spectile: cannot write {}\n", path);
-  return kNoRoom;
+  if (path.empty()) return kOk;
+  std::FILE* const file = std::fopen(part_of(path).c_str(), "wb");
+  if (file == nullptr) return cannot_write(path, errno);
+  bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const int first = errno;
+  good = std::fclose(file) == 0 && good;
+  if (good && std::rename(part_of(path).c_str(), path.c_str()) == 0) return kOk;
+  const int error = good || first == 0 ? errno : first;
+  std::remove(part_of(path).c_str());
+  return cannot_write(path, error);
 }
 
 Result<BenchmarkOptions> options_of(const Arguments& a) {
@@ -136,7 +164,7 @@ Result<BenchmarkOptions> options_of(const Arguments& a) {
   out.isas = a.isas;
   out.lights = a.lights;
   out.only = a.only;
-  out.seed = a.seed;
+  out.seed = static_cast<std::uint64_t>(a.seed);
   for (const std::string& file : a.reflectances) {
     auto some = load_spectra(file);
     if (!some) return some.error();
@@ -165,15 +193,14 @@ int run(const Arguments& a) {
   catch_signals();
   auto options = options_of(a);
   if (!options) return complain(options.error());
+  for (const std::string& path : {a.report, a.plot}) {
+    if (const int bad = check_writable(path); bad != kOk) return bad;
+  }
   const auto report = run_benchmark(*options);
   options->progress = nullptr;  // clears the bar
   if (!report) return complain(report.error());
-  if (!a.report.empty()) {
-    if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
-  }
-  if (!a.plot.empty()) {
-    if (const int bad = write_file(a.plot, plot_of(*report)); bad != kOk) return bad;
-  }
+  if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
+  if (const int bad = write_file(a.plot, plot_of(*report)); bad != kOk) return bad;
   int beyond = 0;
   if (a.json) {
     fmt::print("{}\n", benchmark_to_json(*report));
@@ -232,7 +259,7 @@ void add_bench(CLI::App& app, int& exit) {
                    "only operations whose name contains this ('' for all), and neither ways nor numbers")
       ->type_name("TEXT");
   command->add_flag("--cache-only", a->cache_only, "operations in the caches, not in memory");
-  command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N");
+  command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N")->check(CLI::NonNegativeNumber);
   command->add_flag("-q,--quiet", a->quiet, "no progress bar");
   command->callback([a, &exit] { exit = run(*a); });
 }

@@ -4,6 +4,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 
 #include "src/cli/common.hpp"
 
@@ -53,6 +55,13 @@ int main(int argc, char** argv) {
   static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {
     return run(argc, argv);
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "spectile: {}\n", error.what());
+    return spectile::cli::kBadInput;
+  } catch (const std::system_error& error) {
+    // What {fmt} throws where standard output takes no more.
+    fmt::print(stderr, "spectile: cannot write to standard output: {}\n", error.code().message());
+    return spectile::cli::kNoRoom;
   } catch (const std::exception& error) {
     fmt::print(stderr, "spectile: {}\n", error.what());
     return spectile::cli::kBadInput;

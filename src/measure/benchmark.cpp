@@ -24,8 +24,23 @@ using namespace measure;
 /// Half a core of other work in a part is said.
 constexpr double kDisturbing = 0.25;
 
+/// Those asked for, each once, the slowest first.
+std::vector<std::string> chosen_isas(const BenchmarkOptions& options, const BenchmarkMachine& machine) {
+  if (options.isas.empty()) return machine.isas;
+  std::vector<std::string> out;
+  for (const std::string& isa : machine.isas) {
+    if (std::find(options.isas.begin(), options.isas.end(), isa) != options.isas.end()) out.push_back(isa);
+  }
+  return out;
+}
+
 std::vector<int> thread_counts(const BenchmarkOptions& options, int cores) {
-  if (!options.threads.empty()) return options.threads;
+  if (!options.threads.empty()) {
+    std::vector<int> asked = options.threads;
+    std::sort(asked.begin(), asked.end());
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    return asked;
+  }
   std::vector<int> out;
   for (int n = 1; n < cores; n *= 2) out.push_back(n);
   out.push_back(cores);
@@ -62,7 +77,11 @@ class Run {
       return make_error(ErrorCode::kCancelled, "the benchmark was stopped before {}", name);
     }
     const Watch watch;
-    SPECTILE_TRY(work());
+    stop_ = [this, name] { return options_.progress && !options_.progress(name, done_); };
+    const Result<void> worked = work();
+    // What was cut short is void.
+    if (stop_()) return make_error(ErrorCode::kCancelled, "the benchmark was stopped in {}", name);
+    if (!worked) return worked.error();
     const double others = watch.others();
     if (others > kDisturbing) {
       report_.disturbed.push_back(
@@ -71,10 +90,15 @@ class Run {
     return {};
   }
   void set_done(double done) { done_ = done; }
+  /// Whether the caller wants an end, for what takes long within a part.
+  std::function<bool()> stop() const {
+    return [this] { return stop_ && stop_(); };
+  }
 
  private:
   const BenchmarkOptions& options_;
   BenchmarkReport& report_;
+  std::function<bool()> stop_;
   double done_ = 0;
 };
 
@@ -87,6 +111,10 @@ Result<void> check(const BenchmarkOptions& options, const BenchmarkMachine& mach
   for (const std::string& isa : options.isas) {
     const auto found = dispatch::find(isa);
     if (!found) return found.error();
+    if (isa == "scalar") {
+      return make_error(ErrorCode::kBadArgument,
+                        "the scalar reference is not made for speed: it has no limits to be held to");
+    }
   }
   for (const std::string& light : options.lights) {
     const auto found = true_light(light);
@@ -111,8 +139,10 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
   auto made = lane_operations(Bands());
   if (!made) return made.error();
   const std::vector<Operation> operations = chosen(*std::move(made), options.only);
-  if (operations.empty()) return make_error(ErrorCode::kBadArgument, "no operation is called that");
-  const std::vector<std::string> isas = options.isas.empty() ? report.machine.isas : options.isas;
+  if (operations.empty()) {
+    return make_error(ErrorCode::kBadArgument, "no operation's name contains \"{}\"", options.only.front());
+  }
+  const std::vector<std::string> isas = chosen_isas(options, report.machine);
   const std::vector<int> threads = thread_counts(options, report.machine.cores);
   std::vector<SpeedPlace> places;
   for (const std::string& isa : isas) {
@@ -132,6 +162,7 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
         place.bytes = cache ? report.machine.cache_bytes : report.machine.memory_bytes;
         place.patience.rounds = options.quick ? (cache ? 5 : 3) : (cache ? 15 : 5);
         place.patience.least_seconds = options.quick ? 1e-3 : 2e-3;
+        place.patience.stop = run.stop();
         place.seed = options.seed;
         places.push_back(place);
       }
@@ -181,9 +212,19 @@ void add_scaling(BenchmarkReport& report) {
   }
 }
 
+/// Forces an instruction set while it exists, for operations that choose theirs themselves.
+class Forced {
+ public:
+  explicit Forced(std::string_view isa) { static_cast<void>(dispatch::force(isa)); }
+  ~Forced() { static_cast<void>(dispatch::force("")); }
+  Forced(const Forced&) = delete;
+  Forced& operator=(const Forced&) = delete;
+};
+
 Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  const auto table = dispatch::active();
+  const auto table = dispatch::find(chosen_isas(options, report.machine).back());
   if (!table) return table.error();
+  const Forced forced((*table)->name);
   std::vector<Spectrum> spectra = options.reflectances;
   if (spectra.empty()) {
     auto chart = chart_reflectances();
@@ -198,6 +239,7 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
   Patience patience;
   patience.rounds = options.quick ? 5 : 11;
   patience.least_seconds = options.quick ? 1e-3 : 3e-3;
+  patience.stop = run.stop();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     run.set_done(0.4 + 0.4 * static_cast<double>(i) / static_cast<double>(lights.size()));
     SPECTILE_TRY(run.part(fmt::format("ways under {}", lights[i]), [&]() -> Result<void> {
@@ -224,13 +266,15 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
 }
 
 Result<void> stress(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  const auto table = dispatch::active();
+  const auto table = dispatch::find(chosen_isas(options, report.machine).back());
   if (!table) return table.error();
+  const Forced forced((*table)->name);
   StressSettings settings;
   settings.table = *table;
   settings.seed = options.seed;
   settings.samples = std::size_t{1} << (options.quick ? 15 : options.stress ? 21 : 17);
   settings.few_bands = options.quick;
+  settings.stop = run.stop();
   run.set_done(0.8);
   SPECTILE_TRY(run.part("numbers, operations", [&]() -> Result<void> {
     auto found = stress_operations(settings);

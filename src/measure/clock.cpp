@@ -31,6 +31,7 @@ double quantile(const std::vector<double>& sorted, double q) {
 }
 
 void summarize(Timed& work) {
+  if (work.rounds.empty()) return;
   std::vector<double> sorted = work.rounds;
   std::sort(sorted.begin(), sorted.end());
   work.seconds = quantile(sorted, 0.5);
@@ -72,7 +73,9 @@ double busy_seconds() {
 }  // namespace
 
 void time_in_turn(std::span<Timed* const> work, const Patience& patience) {
+  const auto stopped = [&] { return patience.stop && patience.stop(); };
   for (Timed* w : work) {
+    if (stopped()) return;
     // The first run touches memory; then as many at a time as take long enough for the clock.
     static_cast<void>(run_for(*w, 1));
     std::size_t repeats = 1;
@@ -87,6 +90,7 @@ void time_in_turn(std::span<Timed* const> work, const Patience& patience) {
     w->rounds.clear();
   }
   for (int round = 0; round < patience.rounds; ++round) {
+    if (stopped()) break;
     for (Timed* w : work) {
       w->rounds.push_back(run_for(*w, w->repeats) / static_cast<double>(w->repeats));
     }

@@ -22,6 +22,7 @@ struct Timed {
 struct Patience {
   int rounds = 9;
   double least_seconds = 2e-3;  ///< that are timed at once
+  std::function<bool()> stop;   ///< asked between runs; true leaves the rest out, and the results are void
 };
 
 /// Runs each a first time, then all of them in turn, round by round, so that a change of the machine's speed

@@ -13,22 +13,22 @@ const char* name_of(MemoryLevel level) {
 }
 
 Json units() {
-  return {
-      {"bytes", "machine.*_cache, machine.*_bytes, ways.bytes (a pixel, in memory or in a file)"},
-      {"bytes a second", "limits.load, store, stream and copy; operations.bytes_per_second"},
-      {"float operations a second",
-       "limits.multiply_add (products and sums each count), limits.fused_multiply_add (each counts once)"},
-      {"items a second", "operations.items_per_second, of operations.item"},
-      {"CIEDE2000", "error objects of ways and representations"},
-      {"nanoseconds a pixel or sample, one thread", "ways.nanoseconds"},
-      {"nanoseconds a path, one thread", "representations.nanoseconds"},
-      {"operations.error_unit", "operations.error, operations.bound"},
-      {"stress.unit", "stress.bound (0: exactly the documented result), stress.worst"},
-      {"1",
-       "spread (half the range of the middle half of the runs, over the median), fraction, speed_up, "
-       "scaling.limit"},
-      {"seconds", "seconds"},
-      {"levels", "cache: second-level cache; memory: DRAM"}};
+  return {{"bytes", "machine.*_cache, machine.*_bytes, ways.bytes (a pixel, in memory or in a file)"},
+          {"bytes a second", "limits.load, store, stream and copy; operations.bytes_per_second"},
+          {"float operations a second",
+           "limits.multiply_add (products and sums each count), limits.fused_multiply_add, limits.divide "
+           "(each counts once)"},
+          {"items a second", "operations.items_per_second, of operations.item"},
+          {"CIEDE2000", "error objects of ways and representations"},
+          {"nanoseconds a pixel or sample, one thread", "ways.nanoseconds"},
+          {"nanoseconds a path, one thread", "representations.nanoseconds"},
+          {"operations.error_unit", "operations.error, operations.bound"},
+          {"stress.unit", "stress.bound (0: exactly the documented result), stress.worst"},
+          {"1",
+           "spread (half the range of the middle half of the runs, over the median), fraction, speed_up, "
+           "scaling.limit"},
+          {"seconds", "seconds"},
+          {"levels", "cache: second-level cache; memory: DRAM"}};
 }
 
 Json to_json(const BenchmarkMachine& m) {
@@ -55,6 +55,7 @@ Json to_json(const MachineLimit& l) {
           {"copy", l.copy},
           {"multiply_add", l.multiply_add},
           {"fused_multiply_add", l.fused_multiply_add},
+          {"divide", l.divide},
           {"spread", l.spread}};
 }
 

@@ -167,6 +167,7 @@ Section limit_section(const BenchmarkReport& report) {
                                                                            {"copy"},
                                                                            {"multiply-add"},
                                                                            {"fused"},
+                                                                           {"divide"},
                                                                            {"spread"}});
   for (const MemoryLevel level : kLevels) {
     bool first = true;
@@ -177,7 +178,8 @@ Section limit_section(const BenchmarkReport& report) {
       table.row({html(l.isa), html(fmt::format("{}", l.threads)), html(with_prefix(l.load, "B/s")),
                  html(with_prefix(l.store, "B/s")), html(with_prefix(l.stream, "B/s")),
                  html(with_prefix(l.copy, "B/s")), html(with_prefix(l.multiply_add, "op/s")),
-                 html(with_prefix(l.fused_multiply_add, "op/s")), html("±" + percent(l.spread))});
+                 html(with_prefix(l.fused_multiply_add, "op/s")), html(with_prefix(l.divide, "op/s")),
+                 html("±" + percent(l.spread))});
     }
   }
   section.code = fmt::format(
@@ -186,7 +188,7 @@ Section limit_section(const BenchmarkReport& report) {
       "read and "
       "written, together. Multiply-add: float products and sums, rounded one by one, each counted. Fused: "
       "each fused "
-      "multiply-add counted once.</p>\n{}</section>\n",
+      "multiply-add counted once. Divide: float quotients.</p>\n{}</section>\n",
       table.code());
   return section;
 }

@@ -1,6 +1,7 @@
 // Stress of the numbers: every operation over the whole range of float, held to its bound.
 #pragma once
 
+#include <functional>
 #include <spectile/benchmark.hpp>
 
 #include "kernels/abi.hpp"
@@ -12,7 +13,8 @@ struct StressSettings {
   const kernels::KernelTable* table = nullptr;
   std::size_t samples = std::size_t{1} << 16;  ///< numbers a set of inputs, for each operation
   std::uint64_t seed = 1;
-  bool few_bands = false;  ///< 1 and 60 bands only
+  bool few_bands = false;      ///< 1 and 60 bands only
+  std::function<bool()> stop;  ///< asked now and then; true ends with kCancelled
 };
 
 /// The kernels' operations: typical inputs, all bit patterns, special values, all magnitudes, cancellations,

@@ -219,7 +219,7 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
   std::vector<List> lists = {{"400:700:5", ""}, {"360:830:470", ", 1 band of 470 nm"}};
   if (!settings.few_bands) {
     lists.push_back({"400:700:100", ", 3 bands"});
-    lists.push_back({"400:700:33.3", ", 9 bands"});
+    lists.push_back({"400:670:30", ", 9 bands"});
     lists.push_back({"390:799.6:0.1", ", 4096 bands of 0.1 nm"});
   }
   std::vector<Found> found;
@@ -230,6 +230,8 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
     auto operations = lane_operations(*bands);
     if (!operations) return operations.error();
     for (const Operation& op : *operations) {
+      if (settings.stop && settings.stop())
+        return make_error(ErrorCode::kCancelled, "stopped at {}", op.name);
       const bool on_bands = op.in.rows * op.out.rows > 1 || op.out.planes > 8 ||
                             op.name.starts_with("sigmoid") || op.name.starts_with("relight") ||
                             op.name.ends_with("on bands");

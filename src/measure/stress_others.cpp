@@ -350,6 +350,8 @@ Result<StressResult> folding(const StressSettings& settings) {
 Result<std::vector<StressResult>> stress_others(const StressSettings& settings) {
   std::vector<StressResult> out;
   const auto take = [&](Result<StressResult> found) -> Result<void> {
+    if (settings.stop && settings.stop())
+      return make_error(ErrorCode::kCancelled, "stopped at {}", "the rest");
     if (!found) return found.error();
     out.push_back(*std::move(found));
     return {};

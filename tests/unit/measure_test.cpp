@@ -35,7 +35,7 @@ TEST(Clock, TimesAreMediansOfRoundsInTurn) {
   first.run = [&] { busy('a', 100); };
   second.run = [&] { busy('b', 300); };
   const std::array<Timed*, 2> work = {&first, &second};
-  measure::time_in_turn(work, {5, 1e-6});
+  measure::time_in_turn(work, {5, 1e-6, {}});
   ASSERT_EQ(first.rounds.size(), 5U);
   ASSERT_EQ(second.rounds.size(), 5U);
   EXPECT_GE(first.seconds, 100e-6);
