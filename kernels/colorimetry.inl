@@ -54,6 +54,9 @@ void project(float* x, float* y, float* z, const float* spectra, const float* we
           const F32 w[3] = {F32(weights[4 * band]), F32(weights[4 * band + 1]), F32(weights[4 * band + 2])};
           const float* in = spectra + band * kLanes + lane;
           for (std::size_t j = 0; j < kGroup; ++j) {
+            // The same line of the next block: with six operations a vector the processor does not see far
+            // enough ahead to keep memory busy.
+            if (j * kWidth % kLineFloats == 0) prefetch(in + j * kWidth + bands * kLanes);
             const F32 s = load(in + j * kWidth);
             for (std::size_t k = 0; k < 3; ++k) run[k][j] = run[k][j] + w[k] * s;
           }

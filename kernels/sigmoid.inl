@@ -58,17 +58,17 @@ inline F32 scaled_sample(const SigmoidLanes& lanes, F32 lambda, F32 white) noexc
 }
 
 /// Calls put(band, lane, sample) for every band and each vector of kLanes pixels from `at` on.
-template <bool kScaled, class Put>
+template <bool kScaled, std::size_t kTogether = kGroup, class Put>
 inline void sigmoid_lanes(const float* const c[3], const float* scale, std::size_t at, const float* rows,
                           bool white, std::size_t bands, Put put) noexcept {
-  for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
-    SigmoidLanes lanes[kGroup];
-    for (std::size_t j = 0; j < kGroup; ++j) lanes[j] = load_lanes(c, scale, at + lane + j * kWidth);
+  for (std::size_t lane = 0; lane < kLanes; lane += kTogether * kWidth) {
+    SigmoidLanes lanes[kTogether];
+    for (std::size_t j = 0; j < kTogether; ++j) lanes[j] = load_lanes(c, scale, at + lane + j * kWidth);
     for (std::size_t band = 0; band < bands; ++band) {
       const float* row = rows + band * kSigmoidRow;
       const F32 lambda(row[kSigmoidLambda]);
       const F32 level(white ? row[kSigmoidWhite] : 1.0F);
-      for (std::size_t j = 0; j < kGroup; ++j)
+      for (std::size_t j = 0; j < kTogether; ++j)
         put(band, lane + j * kWidth, scaled_sample<kScaled>(lanes[j], lambda, level));
     }
   }
@@ -80,7 +80,7 @@ inline void sigmoid_blocks_of(float* dst, const float* const c[3], const float* 
   for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
     const auto at = block * kLanes;
     if (streaming) {
-      sigmoid_lanes<kScaled>(
+      sigmoid_lanes<kScaled, kWholeBlock>(
           c, scale, at, rows, white, bands,
           [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
     } else {

@@ -96,6 +96,14 @@ inline std::uint64_t zero_lane_bits(U32 v) {
 #endif
 }
 
+/// Floats of a cache line.
+inline constexpr std::size_t kLineFloats = 16;
+
+/// Asks for a cache line that will be read soon; any address.
+inline void prefetch(const float* p) {
+  __builtin_prefetch(p);
+}
+
 inline void stream(float* p, F32 v) {
 #if defined(SPECTILE_KERNEL_AVX512)
   _mm512_stream_ps(p, v);

@@ -38,16 +38,21 @@ inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexce
   return limit_below(lowest, sample);
 }
 
-/// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at. The limit comes
-/// as a number: where GCC 12 passes a vector to a function of its own, it forgets to clear the registers'
-/// upper parts at the end, and every caller's scalar code then takes many times as long.
-template <class Put>
+/// Vectors of a block taken at once where stores go round the caches: all, so that memory is written line
+/// after line.
+inline constexpr std::size_t kWholeBlock = kLanes / kWidth;
+
+/// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at, kTogether
+/// vectors at once. The limit comes as a number: where GCC 12 passes a vector to a function of its own, it
+/// forgets to clear the registers' upper parts at the end, and every caller's scalar code then takes many
+/// times as long.
+template <std::size_t kTogether = kGroup, class Put>
 inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, float least,
                         std::size_t bands, Put put) noexcept {
   const F32 lowest(least);
-  for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
-    Mixture m[kGroup];
-    for (std::size_t j = 0; j < kGroup; ++j) {
+  for (std::size_t lane = 0; lane < kLanes; lane += kTogether * kWidth) {
+    Mixture m[kTogether];
+    for (std::size_t j = 0; j < kTogether; ++j) {
       const std::size_t i = at + lane + j * kWidth;
       m[j] = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
     }
@@ -55,7 +60,8 @@ inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* 
       const float* entry = table + band * kSmitsRow;
       const Row row = load_row(entry);
       const F32 white(entry[0]);
-      for (std::size_t j = 0; j < kGroup; ++j) put(band, lane + j * kWidth, mixed(m[j], row, white, lowest));
+      for (std::size_t j = 0; j < kTogether; ++j)
+        put(band, lane + j * kWidth, mixed(m[j], row, white, lowest));
     }
   }
 }
@@ -64,7 +70,7 @@ void smits_blocks(float* dst, const float* const rgb[3], const float* table, flo
                   std::size_t blocks, bool streaming) noexcept {
   for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
     if (streaming) {
-      smits_lanes(
+      smits_lanes<kWholeBlock>(
           rgb, block * kLanes, table, lowest, bands,
           [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
     } else {

@@ -14,11 +14,15 @@ if ! command -v dpkg-query >/dev/null; then
   exit 0
 fi
 
-# For the test of job arrays alone, which is skipped without them. They bring services along, so that they are installed
-# only where nobody works, or on request (SPECTILE_SETUP_SLURM=yes); setting up does not fail without them.
+# For two tests alone, which are skipped without them: job arrays, and how the benchmark's page looks. They bring services
+# and much else along, so that they are installed only where nobody works, or on request (SPECTILE_SETUP_SLURM=yes,
+# SPECTILE_SETUP_CHROMIUM=yes); setting up does not fail without them.
 optional=()
 if [ "${CI:-}" = true ] || [ "${SPECTILE_SETUP_SLURM:-}" = yes ]; then
-  optional=(munge slurmctld slurmd slurm-client)
+  optional+=(munge slurmctld slurmd slurm-client)
+fi
+if [ "${CI:-}" = true ] || [ "${SPECTILE_SETUP_CHROMIUM:-}" = yes ]; then
+  optional+=(chromium)
 fi
 
 installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null || true)" = installed ]; }

@@ -128,6 +128,9 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   xyz.out = {3, 1};
   xyz.operations = 3 * (count + sums);
   xyz.bound = count / 8 + 11;
+  xyz.binds =
+      "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
+      "memory";
   xyz.run = [=](const KernelTable& k, const Arrays& a) {
     k.project(a.out(0), a.out(1), a.out(2), a.in(), projector->float_weights(), n, a.blocks);
   };
