@@ -28,7 +28,8 @@ struct Positions {
   Positions() {
     for (std::size_t i = 0; i < kWayLanes; ++i) {
       x.push_back(static_cast<float>(i % kWidth) + 0.5F);
-      y.push_back(static_cast<float>(i / kWidth) + 0.5F);
+      const std::size_t line = i / kWidth;
+      y.push_back(static_cast<float>(line) + 0.5F);
       weight.push_back(1.0F);
     }
   }
@@ -168,7 +169,7 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
     for (std::size_t i = 0; i < kWayLanes; ++i) {
       const auto& r = (*scene.reflectances)[i % scene.reflectances->size()].spectrum;
       for (std::size_t k = 0; k < kWavelengths; ++k) {
-        const double nm = static_cast<double>(drawn->lambda_nm.at(i, k));
+        const auto nm = static_cast<double>(drawn->lambda_nm.at(i, k));
         radiance->at(i, k) = static_cast<float>(r.at(nm) * light.at(nm) / luminance);
       }
     }

@@ -15,7 +15,7 @@ using kernels::kLanes;
 constexpr std::size_t kPage = 4096;
 /// Planes start at different places of a page, at whole cache lines: loads would wait for stores, and lines
 /// push each other out of a cache, where addresses end alike.
-constexpr std::size_t kApart = 17 * 64;
+constexpr std::size_t kApart = std::size_t{17} * 64;
 
 std::size_t plane_bytes_of(std::size_t bytes) {
   return (bytes + kPage - 1) / kPage * kPage + kApart;

@@ -25,7 +25,7 @@ using CurveRows = std::shared_ptr<const std::vector<float>>;
 
 Result<CurveRows> curve_rows() {
   // One row more behind the last, and room to begin at a multiple of 32 bytes.
-  auto rows = std::make_shared<std::vector<float>>(static_cast<std::size_t>(kIntervals + 2) * 8 + 8, 0.0F);
+  auto rows = std::make_shared<std::vector<float>>((static_cast<std::size_t>(kIntervals) + 2) * 8 + 8, 0.0F);
   const char* const names[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t c = 0; c < 3; ++c) {
     const auto curve = named_spectrum(names[c]);
@@ -48,7 +48,7 @@ const float* aligned_rows(const std::vector<float>& rows) {
   };
   thread_local std::vector<Row> copy;
   if (copy.empty()) {
-    copy.resize(static_cast<std::size_t>(kIntervals + 2));
+    copy.resize(static_cast<std::size_t>(kIntervals) + 2);
     for (std::size_t i = 0; i < copy.size(); ++i) std::copy_n(rows.data() + 8 * i, 8, copy[i].values);
   }
   return copy.data()->values;

@@ -88,7 +88,8 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
 }
 
 /// Sums of weights [count][bands] times samples, in double.
-Oracle weighted_by(std::shared_ptr<const std::vector<double>> weights, std::size_t bands, std::size_t count) {
+Oracle weighted_by(const std::shared_ptr<const std::vector<double>>& weights, std::size_t bands,
+                   std::size_t count) {
   return [=](const double* v, double* truth, double* scale) {
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < bands; ++i) {

@@ -50,7 +50,7 @@ bool finite(const double* v) {
 /// Rows of a float table [rows][kSmitsRow] mixed, limited from below: 6 u of the sum of the weights'
 /// magnitudes times the largest basis value.
 std::function<double(const double*, const double*, double)> mixture_error(
-    std::shared_ptr<const std::vector<double>> basis, std::size_t rows, double lowest) {
+    const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
   double largest = 0;
   for (const double v : *basis) largest = std::max(largest, std::abs(v));
   return judged_by(
@@ -251,7 +251,7 @@ void add_sigmoid(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     if (std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) > 0x1p60) return kNotJudged;
     double worst = 0;
     for (std::size_t b = 0; b < bands; ++b) {
-      const double l = static_cast<double>(table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
+      const auto l = static_cast<double>(table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
       // 2^-23 of the sigmoid itself; the polynomial's rounding times its slope, 1/2 at most.
       const double allowed =
           0x1p-23 + 0x1p-24 * (std::abs(c[0]) * l * l + std::abs(c[1] * l) + std::abs(c[2]));

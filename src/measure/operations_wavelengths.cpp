@@ -175,7 +175,7 @@ void add_gaussians(std::vector<Operation>& to) {
       {0.362, 442.0, 0.0624, 0.0374}, {1.056, 599.8, 0.0264, 0.0323}, {-0.065, 501.1, 0.0490, 0.0382}};
   Operation op = wavelength_operation("sum of 3 Gaussians");
   // In double, a lobe: place (4), its square and factor (2), hold (4), the power of two, amplitude and sum.
-  op.operations = 4 + 3 * 2 * (4 + 2 + 4 + 4 + 2 * kernels::kExpTerms - 1 + 2 + 2);
+  op.operations = 4 + 6.0 * (4 + 2 + 4 + 4 + 2 * kernels::kExpTerms - 1 + 2 + 2);
   op.binds = "three series, chains of dependent products and sums in double";
   op.bound = 1.002;
   op.run = [=](const KernelTable& k, const Arrays& a) {

@@ -191,6 +191,7 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene&
       ErrorList errors(scene.light->white);
       for (std::size_t p = 0; p < kPaths; ++p) {
         std::vector<const TrueReflectance*> along;
+        along.reserve(kMostBounces);
         for (int b = 0; b < bounces; ++b)
           along.push_back(&(*scene.reflectances)[paths[p][static_cast<std::size_t>(b)]]);
         Xyz found{};

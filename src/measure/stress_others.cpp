@@ -105,7 +105,8 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
   std::vector<float> large(kPixels);
   for (std::size_t i = 0; i < kPixels; ++i) {
     x[i] = static_cast<float>(i % kSide) + 0.5F;
-    y[i] = static_cast<float>(i / kSide) + 0.5F;
+    const std::size_t line = i / kSide;
+    y[i] = static_cast<float>(line) + 0.5F;
     large[i] = std::ldexp(uniform(random, 1.0F, 2.0F), static_cast<int>(random() % 30));
   }
   const auto add = [&]() { return film->add(BandSamples{x, y, {}, {value.data(), 1, kPixels}}); };
@@ -126,7 +127,7 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
   if (!spectrum) return spectrum.error();
   for (std::size_t i = 0; i < kPixels; ++i) {
     const double truth = sum[i] / (3.0 * rounds);
-    const double found =
+    const auto found =
         static_cast<double>(spectrum->at(0, static_cast<int>(i % kSide), static_cast<int>(i / kSide)));
     const double error =
         truth == 0 ? std::abs(found) * 0x1p100 : std::abs(found - truth) / std::abs(truth) * 0x1p24;

@@ -20,9 +20,8 @@ Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quic
   PlannerOptions options;
   constexpr int kSide = 5;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const std::array<double, 3> rgb = {static_cast<double>(i % kSide) / (kSide - 1),
-                                       static_cast<double>(i / kSide % kSide) / (kSide - 1),
-                                       static_cast<double>(i / kSide / kSide) / (kSide - 1)};
+    const auto step = [](int n) { return static_cast<double>(n % kSide) / (kSide - 1); };
+    const std::array<double, 3> rgb = {step(i), step(i / kSide), step(i / (kSide * kSide))};
     auto spectrum = rgb_albedo_spectrum(*upsampler, rgb);
     if (!spectrum) return spectrum.error();
     options.reflectances.emplace_back(*std::move(spectrum));
