@@ -256,7 +256,8 @@ void add_bench(CLI::App& app, int& exit) {
       ->type_name("FILE");
   command
       ->add_option("--only", a->only,
-                   "only operations whose name contains this ('' for all), and neither ways nor numbers")
+                   "only operations whose name contains this ('' for all), and no ways; stress only where it "
+                   "is asked for")
       ->type_name("TEXT");
   command->add_flag("--cache-only", a->cache_only, "operations in the caches, not in memory");
   command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N")->check(CLI::NonNegativeNumber);

@@ -126,22 +126,16 @@ Result<void> check(const BenchmarkOptions& options, const BenchmarkMachine& mach
   return {};
 }
 
-std::vector<Operation> chosen(std::vector<Operation> operations, const std::vector<std::string>& only) {
-  if (only.empty()) return operations;
-  std::erase_if(operations, [&](const Operation& op) {
-    return std::none_of(only.begin(), only.end(),
-                        [&](const std::string& part) { return op.name.find(part) != std::string::npos; });
-  });
-  return operations;
+Error no_operation(const BenchmarkOptions& options) {
+  return make_error(ErrorCode::kBadArgument, "no operation's name contains \"{}\"", options.only.front());
 }
 
 Result<void> measure_operations(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
   auto made = lane_operations(Bands());
   if (!made) return made.error();
-  const std::vector<Operation> operations = chosen(*std::move(made), options.only);
-  if (operations.empty()) {
-    return make_error(ErrorCode::kBadArgument, "no operation's name contains \"{}\"", options.only.front());
-  }
+  std::vector<Operation> operations = *std::move(made);
+  std::erase_if(operations, [&](const Operation& op) { return !is_chosen(op.name, options.only); });
+  if (operations.empty()) return no_operation(options);
   const std::vector<std::string> isas = chosen_isas(options, report.machine);
   const std::vector<int> threads = thread_counts(options, report.machine.cores);
   std::vector<SpeedPlace> places;
@@ -274,6 +268,7 @@ Result<void> stress(Run& run, const BenchmarkOptions& options, BenchmarkReport& 
   settings.seed = options.seed;
   settings.samples = std::size_t{1} << (options.quick ? 15 : options.stress ? 21 : 17);
   settings.few_bands = options.quick;
+  settings.only = options.only;
   settings.stop = run.stop();
   run.set_done(0.8);
   SPECTILE_TRY(run.part("numbers, operations", [&]() -> Result<void> {
@@ -283,12 +278,14 @@ Result<void> stress(Run& run, const BenchmarkOptions& options, BenchmarkReport& 
     return {};
   }));
   run.set_done(0.9);
-  return run.part("numbers, the rest", [&]() -> Result<void> {
+  SPECTILE_TRY(run.part("numbers, the rest", [&]() -> Result<void> {
     auto found = stress_others(settings);
     if (!found) return found.error();
     report.stress.insert(report.stress.end(), found->begin(), found->end());
     return {};
-  });
+  }));
+  if (report.stress.empty()) return no_operation(options);
+  return {};
 }
 
 }  // namespace

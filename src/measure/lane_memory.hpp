@@ -20,7 +20,7 @@ class LaneMemory {
   std::size_t lanes() const noexcept { return blocks_ * kernels::kLanes; }
   Arrays arrays(std::size_t first, std::size_t count, bool around) const;
 
-  /// Values of a lane, [planes][rows]; halves are rounded.
+  /// Values of a lane, [planes][rows]; halves are rounded, whole numbers limited to what double holds.
   void write(std::size_t lane, const float* values);
   /// Copies the first `count` blocks' inputs over all the others.
   void repeat(std::size_t count);
@@ -28,9 +28,11 @@ class LaneMemory {
   void read_out(std::size_t lane, double* values) const;
 
  private:
+  static std::size_t index(const Shape& shape, std::size_t lane, std::size_t row) noexcept;
   static void read(const Shape& shape, const std::byte* at, std::size_t plane_bytes, std::size_t lane,
                    double* values);
   Shape in_, out_;
+  const Operation* operation_;
   std::byte* source_;
   std::byte* target_;
   std::size_t blocks_ = 0;

@@ -1,6 +1,7 @@
 // What operations share: judging errors, typical values.
 #include "src/measure/operation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -59,6 +60,21 @@ float uniform(Random& random, float low, float high) {
   return low + (high - low) * unit;
 }
 
+bool is_chosen(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+           return name.find(part) != std::string::npos;
+         });
+}
+
+bool finite3(const double* v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+double half_of_half_step(double value) {
+  // Half has eleven bits, and steps of 2^-24 below 2^-14.
+  return std::ldexp(0.5, std::max(-24, std::ilogb(std::max(value, 0x1p-14)) - 10));
+}
+
 std::function<void(Random&, float*)> uniform_values(std::size_t count, float low, float high) {
   return [=](Random& random, float* values) {
     for (std::size_t i = 0; i < count; ++i) values[i] = uniform(random, low, high);
@@ -72,6 +88,8 @@ Result<std::vector<Operation>> lane_operations(const Bands& bands) {
   SPECTILE_TRY(add_upsampling(out, bands));
   SPECTILE_TRY(add_wavelengths(out));
   SPECTILE_TRY(add_film(out, bands));
+  SPECTILE_TRY(add_film_sums(out, bands));
+  add_differences(out);
   add_conversions(out);
   return out;
 }

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <random>
 #include <spectile/bands.hpp>
 #include <spectile/result.hpp>
+#include <spectile/upsample.hpp>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,9 @@ enum class Element {
   kFloat,
   kHalf,
   kMask,  ///< a bit a lane
+  kInt,   ///< whole numbers of 32 bits
   kQuad,  ///< floats, a lane's rows side by side: [kLanes][rows]
+  kLimb,  ///< whole numbers of 64 bits, a lane's rows side by side
 };
 
 /// What a lane has in memory: planes of blocks [rows][kLanes].
@@ -32,7 +36,10 @@ struct Shape {
   /// Of a block in a plane.
   std::size_t block_bytes() const noexcept {
     if (element == Element::kMask) return rows * sizeof(std::uint64_t);
-    return rows * kernels::kLanes * (element == Element::kHalf ? sizeof(std::uint16_t) : sizeof(float));
+    const std::size_t bytes = element == Element::kHalf   ? sizeof(std::uint16_t)
+                              : element == Element::kLimb ? sizeof(std::int64_t)
+                                                          : sizeof(float);
+    return rows * kernels::kLanes * bytes;
   }
   double lane_bytes() const noexcept {
     return static_cast<double>(planes * block_bytes()) / static_cast<double>(kernels::kLanes);
@@ -72,16 +79,32 @@ struct Operation {
   bool can_stream = false;  ///< the kernel stores round the caches where it is told
   bool bitwise = false;     ///< looks at bits: denormals are not 0 in any mode of the processor
   bool cache_only = false;  ///< works on a line of an image, never on more
-  std::string binds;        ///< what binds it where its limit does not, in words
-  std::string unit = "u";   ///< of error and bound
+  bool adds = false;        ///< to what is there: the target is read too
+  /// A lane's bytes of the target that are touched; below 0: all.
+  double touched_bytes = -1;
+  /// So many times fewer lanes are tried: for what takes microseconds a lane.
+  std::size_t dear = 1;
+  std::string binds;       ///< what binds it where its limit does not, in words
+  std::string unit = "u";  ///< of error and bound
   double bound = 0;
   std::function<void(const kernels::KernelTable&, const Arrays&)> run;
+  /// Makes a target ready to be added to; empty where none is. Called before what is judged.
+  std::function<void(const Arrays&)> clear;
   /// Typical values of one lane, [planes][rows].
   std::function<void(Random&, float* values)> fill;
   /// Error of a lane, [planes][rows] each: at most `bound`, or kNotJudged. `tiny`: what a result or an
   /// operand may be off by where it is below the least normal number.
   std::function<double(const double* in, const double* out, double tiny)> error;
-  Cost cost() const { return {in.lane_bytes(), out.lane_bytes(), operations, divisions}; }
+  /// In its place, where it matters which lane it is.
+  std::function<double(std::size_t lane, const double* in, const double* out, double tiny)> error_at;
+  /// In its place, for what tells of all lanes together: the largest error of a run.
+  std::function<double(const Arrays&, bool flushed)> error_of_run;
+  /// Reads a lane's results out of a block of the target, where they do not lie as the shape says.
+  std::function<void(const std::byte* block, std::size_t lane, double* values)> read_block;
+  Cost cost() const {
+    const double written = touched_bytes >= 0 ? touched_bytes : out.lane_bytes();
+    return {in.lane_bytes() + (adds ? written : 0), written, operations, divisions};
+  }
 };
 
 /// The truth of a lane: values and, for each, the magnitude that the bound is a multiple of u of.
@@ -97,6 +120,15 @@ std::function<double(const double*, const double*, double)> judged_by(std::size_
 /// Uniform in [low, high).
 float uniform(Random& random, float low, float high);
 
+/// Whether a name contains one of these; every one does where there are none.
+bool is_chosen(const std::string& name, const std::vector<std::string>& only);
+
+/// Whether three numbers are.
+bool finite3(const double* v);
+
+/// Half a step of half at a value.
+double half_of_half_step(double value);
+
 /// Fills a lane's values uniformly.
 std::function<void(Random&, float*)> uniform_values(std::size_t count, float low, float high);
 
@@ -107,8 +139,11 @@ Result<std::vector<Operation>> lane_operations(const Bands& bands);
 void add_arithmetic(std::vector<Operation>& to);
 Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
+void add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
 Result<void> add_wavelengths(std::vector<Operation>& to);
 Result<void> add_film(std::vector<Operation>& to, const Bands& bands);
+Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands);
+void add_differences(std::vector<Operation>& to);
 void add_conversions(std::vector<Operation>& to);
 
 }  // namespace spectile::measure

@@ -10,7 +10,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/measure/operation.hpp"
-#include "src/ops/sigmoid_model.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -23,8 +22,6 @@ using kernels::kSmitsRow;
 constexpr double kMixture = 22;
 /// And a band: two permutes, three products, two sums, the limit from below.
 constexpr double kMixtureBand = 8;
-/// A sigmoid's sample: nine fused multiply-adds, products and sums more, the limits, the guess from its bits.
-constexpr double kSigmoidBand = 16;
 
 /// The row of bases that least, middle and greatest component of an RGB go to, and their weights.
 struct Mixture {
@@ -43,10 +40,6 @@ Mixture mixture_of(const double* rgb) {
   return {{least, middle - least, most - middle}, {0, 1 + low, 4 + high}};
 }
 
-bool finite(const double* v) {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
 /// Rows of a float table [rows][kSmitsRow] mixed, limited from below: 6 u of the sum of the weights'
 /// magnitudes times the largest basis value.
 std::function<double(const double*, const double*, double)> mixture_error(
@@ -57,7 +50,7 @@ std::function<double(const double*, const double*, double)> mixture_error(
       rows,
       [=](const double* rgb, double* truth, double* scale) {
         // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
-        if (!finite(rgb)) {
+        if (!finite3(rgb)) {
           const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
           std::fill_n(truth, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
           std::fill_n(scale, rows, std::numeric_limits<double>::max());
@@ -102,12 +95,23 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.error = mixture_error(basis_of(*upsampler), bands, 0);
   to.push_back(op);
 
-  // A line of an image: rows of halves as OpenEXR packs them.
+  // A line of an image: a row a band, as OpenEXR packs them.
+  op.name = "upsample to a line of floats, " + name;
+  op.out = {bands, 1};
+  op.can_stream = false;
+  op.cache_only = true;
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    thread_local std::vector<void*> rows;
+    rows.resize(bands);
+    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out(b);
+    k.smits_rows_float(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
+  };
+  to.push_back(op);
+
   op.name = "upsample to a line of halves, " + name;
   op.out = {bands, 1, Element::kHalf};
   op.operations = kMixture + (kMixtureBand + 3) * static_cast<double>(bands);
-  op.can_stream = false;
-  op.cache_only = true;
   op.unit = "half ULP of half";
   op.bound = 1.001;  // rounding to half, and the float before it
   op.run = [=](const KernelTable& k, const Arrays& a) {
@@ -119,7 +123,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   };
   const auto basis = basis_of(*upsampler);
   op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
-    if (!finite(rgb)) return kNotJudged;
+    if (!finite3(rgb)) return kNotJudged;
     const Mixture m = mixture_of(rgb);
     double worst = 0;
     for (std::size_t row = 0; row < bands; ++row) {
@@ -131,10 +135,8 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
       }
       if (magnitudes > 1e37) return kNotJudged;
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
-      // Half has eleven bits, and steps of 2^-24 below 2^-14.
-      const double step = std::ldexp(1.0, std::max(-24, std::ilogb(std::max(v, 0x1p-14)) - 10));
       const double rounding = 6 * 0x1p-24 * magnitudes;
-      worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / (0.5 * step));
+      worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
     }
     return worst;
   };
@@ -166,102 +168,6 @@ void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relight
   to.push_back(std::move(op));
 }
 
-/// The sigmoid in double, from coefficients in float.
-double sigmoid(const double* c, double lambda) {
-  const double x = (c[0] * lambda + c[1]) * lambda + c[2];
-  return std::clamp(0.5 + 0.5 * x / std::sqrt(1 + x * x), 0.0, 1.0);
-}
-
-void add_sigmoid(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler) {
-  const SigmoidModel& model = *upsampler->sigmoid();
-  const std::size_t bands = upsampler->bands().count();
-  const auto count = static_cast<double>(bands);
-  Operation solve;
-  solve.group = "upsampling";
-  solve.name = "sigmoid: find coefficients";
-  solve.item = "colour";
-  solve.in = {3, 1};
-  solve.out = {3, 1};
-  solve.unit = "1e-6 of the colour";
-  // Bands on which some colours have no sigmoid promise 1e-5 for what is not reported.
-  solve.bound = model.has_cube ? 1 : 10;
-  solve.fill = uniform_values(3, 0.0F, 1.0F);
-  // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
-  // with the samples, their slopes and the nine sums of the derivatives.
-  solve.operations = 2 * count * (kSigmoidBand + 20);
-  solve.binds = "further steps for the lanes of a vector that need them, gathers, and a 3 x 3 system a step";
-  solve.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const c[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    thread_local std::vector<std::uint64_t> unsolved;
-    unsolved.resize(a.blocks);
-    k.sigmoid_solve(c, rgb, upsampler->sigmoid()->table, unsolved.data(), a.n());
-    // What is reported is marked for the judge.
-    for (std::size_t i = 0; i < a.n(); ++i) {
-      if (unsolved[i / kLanes] == 0) {
-        i += kLanes - 1;
-      } else if ((unsolved[i / kLanes] >> (i % kLanes) & 1U) != 0) {
-        c[0][i] = std::numeric_limits<float>::quiet_NaN();
-      }
-    }
-  };
-  const kernels::SigmoidTable table = model.table;
-  const bool has_cube = model.has_cube;
-  solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
-    if (!finite(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
-    if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kNotJudged;
-    // Bands that have no sigmoid for some colours report them.
-    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kNotJudged;
-    double sum[3] = {0, 0, 0};
-    for (std::size_t b = 0; b < bands; ++b) {
-      const double s =
-          sigmoid(c, static_cast<double>(table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidLambda]));
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(table.weights[4 * b + k]) * s;
-    }
-    double worst = 0;
-    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
-    return worst / 1e-6;
-  };
-  to.push_back(std::move(solve));
-
-  Operation evaluate;
-  evaluate.group = "upsampling";
-  evaluate.name = "sigmoid: evaluate";
-  evaluate.item = "colour";
-  evaluate.in = {3, 1};
-  evaluate.out = {1, bands};
-  evaluate.operations = kSigmoidBand * count;
-  evaluate.can_stream = true;
-  evaluate.unit = "stated bound";
-  evaluate.bound = 1;
-  evaluate.binds =
-      "one chain of sixteen operations a sample, of which sixteen registers hold few side by side";
-  // Coefficients as those of real colours are.
-  evaluate.fill = [](Random& random, float* c) {
-    c[0] = uniform(random, -8.0F, 8.0F);
-    c[1] = uniform(random, -8.0F, 8.0F);
-    c[2] = uniform(random, -8.0F, 8.0F);
-  };
-  evaluate.run = [=](const KernelTable& k, const Arrays& a) {
-    const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_blocks(a.out(), c, nullptr, upsampler->sigmoid()->table.rows, false, bands, a.blocks, a.around);
-  };
-  evaluate.error = [=](const double* c, const double* out, double /*tiny*/) {
-    if (!finite(c)) return kNotJudged;
-    if (std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) > 0x1p60) return kNotJudged;
-    double worst = 0;
-    for (std::size_t b = 0; b < bands; ++b) {
-      const auto l = static_cast<double>(table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
-      // 2^-23 of the sigmoid itself; the polynomial's rounding times its slope, 1/2 at most.
-      const double allowed =
-          0x1p-23 + 0x1p-24 * (std::abs(c[0]) * l * l + std::abs(c[1] * l) + std::abs(c[2]));
-      worst = std::max(worst, std::abs(out[b] - sigmoid(c, l)) / allowed);
-    }
-    return worst;
-  };
-  to.push_back(std::move(evaluate));
-}
-
 void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
   const std::array<float, 3> weights = upsampler.luminance();
   Operation op;
@@ -286,7 +192,7 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
     k.limit_gamut(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());
   };
   op.error = [=](const double* rgb, const double* out, double tiny) {
-    if (!finite(rgb)) return kNotJudged;
+    if (!finite3(rgb)) return kNotJudged;
     const double most = std::max({std::abs(rgb[0]), std::abs(rgb[1]), std::abs(rgb[2]), 1.0});
     if (most > 1e30) return kNotJudged;
     double before = 0;
@@ -338,7 +244,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
     kept->relighter = *std::move(made);
     add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
   }
-  if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoid(to, sigmoids);
+  if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoids(to, sigmoids);
   add_gamut(to, *smits);
   return {};
 }

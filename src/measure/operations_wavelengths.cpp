@@ -11,6 +11,7 @@
 #include "kernels/exponential_constants.hpp"
 #include "src/base/errors.hpp"
 #include "src/measure/operation.hpp"
+#include "src/ops/knot_index.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -132,6 +133,69 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
       },
       2 * kWavelengths, false, project.bound);
   to.push_back(std::move(project));
+}
+
+/// A spectrum as instruments give it: knots some nanometres apart, never evenly.
+Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
+  struct Table {
+    KnotIndex index;
+    std::vector<float> nm;
+    std::vector<float> pairs;
+  };
+  auto table = std::make_shared<Table>();
+  constexpr int kKnots = 95;
+  for (int i = 0; i < kKnots; ++i) {
+    // Up to two nanometres off an even place, by the golden ratio's multiples.
+    const double golden = static_cast<double>(i) / std::numbers::phi;
+    table->nm.push_back(static_cast<float>(360 + 5.0 * i + 4 * (golden - std::floor(golden)) - 2));
+  }
+  for (std::size_t i = 0; i < table->nm.size(); ++i) {
+    const double here = spectrum(static_cast<double>(table->nm[i]));
+    const std::size_t next = std::min(i + 1, table->nm.size() - 1);
+    const double there = spectrum(static_cast<double>(table->nm[next]));
+    const double apart = static_cast<double>(table->nm[next]) - static_cast<double>(table->nm[i]);
+    table->pairs.push_back(static_cast<float>(here));
+    table->pairs.push_back(apart > 0 ? static_cast<float>((there - here) / apart) : 0.0F);
+  }
+  auto index = index_knots(table->nm);
+  if (!index) return index.error();
+  table->index = *std::move(index);
+  Operation op = wavelength_operation("look up between irregular knots");
+  // The bucket (4), a gather and a comparison a halving (3 each), the line (3), what is outside (4), NaN (2).
+  op.operations = 13 + 3.0 * table->index.halvings;
+  op.binds = "gathers: of the bucket's knot, of each knot that is compared, of value and slope";
+  op.bound = 3;
+  op.run = [table](const KernelTable& k, const Arrays& a) {
+    kernels::KnotTable knots;
+    knots.knots = table->index.knots.data();
+    knots.pairs = table->pairs.data();
+    knots.count = static_cast<std::int32_t>(table->nm.size());
+    knots.start = table->index.start.data();
+    knots.buckets_per_nm = table->index.buckets_per_nm;
+    knots.buckets = static_cast<std::int32_t>(table->index.start.size());
+    knots.halvings = table->index.halvings;
+    k.look_up_knots(a.out(), a.in(), knots, a.n());
+  };
+  op.error = judged_by(
+      1,
+      [table](const double* v, double* truth, double* scale) {
+        if (std::isnan(v[0])) {
+          truth[0] = v[0];
+          return;
+        }
+        const auto& nm = table->nm;
+        const auto above = std::upper_bound(
+            nm.begin(), nm.end(), v[0], [](double x, float knot) { return x < static_cast<double>(knot); });
+        if (above == nm.begin() || v[0] > static_cast<double>(nm.back())) return;
+        const auto i = static_cast<std::size_t>(above - nm.begin()) - 1;
+        const double from =
+            (v[0] - static_cast<double>(nm[i])) * static_cast<double>(table->pairs[2 * i + 1]);
+        truth[0] = static_cast<double>(table->pairs[2 * i]) + from;
+        scale[0] = std::abs(static_cast<double>(table->pairs[2 * i])) + std::abs(from);
+      },
+      2, false, op.bound);
+  to.push_back(std::move(op));
+  return {};
 }
 
 void add_planck(std::vector<Operation>& to) {
@@ -259,6 +323,7 @@ Result<void> add_wavelengths(std::vector<Operation>& to) {
   const auto y = named_spectrum("cie1931-y");
   if (!y) return y.error();
   add_tables(to, *y);
+  SPECTILE_TRY(add_knots(to, *y));
   add_planck(to);
   add_gaussians(to);
   add_draws(to);

@@ -13,8 +13,9 @@ struct StressSettings {
   const kernels::KernelTable* table = nullptr;
   std::size_t samples = std::size_t{1} << 16;  ///< numbers a set of inputs, for each operation
   std::uint64_t seed = 1;
-  bool few_bands = false;      ///< 1 and 60 bands only
-  std::function<bool()> stop;  ///< asked now and then; true ends with kCancelled
+  bool few_bands = false;         ///< 1 and 60 bands only
+  std::vector<std::string> only;  ///< operations whose name contains one of these; all where empty
+  std::function<bool()> stop;     ///< asked now and then; true ends with kCancelled
 };
 
 /// The kernels' operations: typical inputs, all bit patterns, special values, all magnitudes, cancellations,

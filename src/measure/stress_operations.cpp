@@ -164,7 +164,7 @@ void try_set(const Operation& op, const char* set, const std::function<void(Rand
              bool flushed, const std::string& where, const StressSettings& settings,
              std::vector<float>& memory, Found& found) {
   const std::size_t lanes =
-      std::max<std::size_t>(kernels::kLanes, settings.samples / (op.in.values() + op.out.values()) /
+      std::max<std::size_t>(kernels::kLanes, settings.samples / op.dear / (op.in.values() + op.out.values()) /
                                                  kernels::kLanes * kernels::kLanes);
   const std::size_t blocks = lanes / kernels::kLanes;
   memory.resize(LaneMemory::least_bytes(op, blocks) / sizeof(float) + 32);
@@ -177,6 +177,7 @@ void try_set(const Operation& op, const char* set, const std::function<void(Rand
     fill(random, values.data());
     at.write(lane, values.data());
   }
+  if (op.clear) op.clear(at.arrays(0, at.blocks(), false));
   {
     const FlushToZero mode(flushed);
     op.run(*settings.table, at.arrays(0, at.blocks(), false));
@@ -230,6 +231,7 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
     auto operations = lane_operations(*bands);
     if (!operations) return operations.error();
     for (const Operation& op : *operations) {
+      if (!is_chosen(op.name, settings.only)) continue;
       if (settings.stop && settings.stop())
         return make_error(ErrorCode::kCancelled, "stopped at {}", op.name);
       const bool on_bands = op.in.rows * op.out.rows > 1 || op.out.planes > 8 ||

@@ -81,8 +81,10 @@ class FilmPixels {
   /// Carried over first, so that equal sums are equal numbers whether or not the tile is settled.
   static double sum(std::int64_t coarse, std::int64_t rest, double coarse_step) {
     film_carry(coarse, rest);
+    // Exact: steps of limbs are powers of two far inside double's range.
+    constexpr double kRestOfCoarse = 1.0 / static_cast<double>(std::int64_t{1} << kFilmLimbBits);
     return static_cast<double>(coarse) * coarse_step +
-           static_cast<double>(rest) * std::ldexp(coarse_step, -kFilmLimbBits);
+           static_cast<double>(rest) * (coarse_step * kRestOfCoarse);
   }
   double band(const std::int64_t* tile, std::size_t pixel, std::size_t b, double w) const {
     const std::int64_t* const spectrum = tile + s_.layout.spectrum_at + pixel * s_.layout.spectrum_limbs();

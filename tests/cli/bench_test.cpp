@@ -113,6 +113,15 @@ TEST(Bench, StressAloneHoldsEveryBound) {
   EXPECT_THAT(outcome.out, Not(HasSubstr("GB/s")));  // nothing but that
 }
 
+TEST(Bench, StressOfSomeOperationsIsOfThemAlone) {
+  const auto outcome = run_tool({"bench", "--stress-only", "--quick", "-q", "--only", "film: add"});
+  ASSERT_EQ(outcome.exit, 0) << outcome;
+  EXPECT_THAT(outcome.out, HasSubstr("\n  film: add colours"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  film: add up"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("multiply_add")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("film: any sample")));
+}
+
 TEST(Bench, SlowTheSameSeedStressesTheSameNumbers) {
   const auto numbers = [](const char* seed) {
     const auto outcome = run_tool({"bench", "--stress-only", "--quick", "--json", "--seed", seed});
@@ -143,6 +152,7 @@ TEST(Bench, WhatIsWrongIsSaidInOneLine) {
   expect_refused({"--threads"}, 2, "--threads");
   expect_refused({"--stress", "--stress-only"}, 2, "--stress-only");
   expect_refused({"--only", "no-such-operation"}, 2, "operation");
+  expect_refused({"--stress-only", "--only", "no-such-operation"}, 2, "operation");
   expect_refused({"--seed", "seven"}, 2, "seven");
   expect_refused({"--no-such-option"}, 2, "--no-such-option");
   expect_refused({"more"}, 2, "more");

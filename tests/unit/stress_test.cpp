@@ -109,6 +109,40 @@ void half_rounded_down(std::uint16_t* dst, const float* src, std::size_t n) noex
   }
 }
 
+void film_add_without_rests(std::int64_t* const* tiles, std::size_t offset, const kernels::FilmGrid& grid,
+                            const kernels::FilmEntries& entries, const float* quads, std::size_t count,
+                            std::size_t limbs) noexcept {
+  reference::table.film_add(tiles, offset, grid, entries, quads, count, limbs);
+  for (std::size_t i = 0; i < entries.count; ++i) {
+    std::int64_t* const pixel =
+        tiles[entries.tile] + offset + static_cast<std::size_t>(entries.address[i]) * limbs;
+    std::fill_n(pixel + 4, 4, 0);
+  }
+}
+
+void film_place_one_to_the_right(std::int32_t* address, std::int32_t tiles[2],
+                                 std::uint64_t counts[kernels::kFilmReasons],
+                                 const kernels::FilmWindow& window, const float* x, const float* y,
+                                 const float* weight, const std::int32_t* reasons, std::size_t n) noexcept {
+  reference::table.film_place(address, tiles, counts, window, x, y, weight, reasons, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (address[i] >= 0 && x[i] == 1.0F) ++address[i];
+  }
+}
+
+void scan_rgb_that_takes_minus_zero_for_negative(kernels::RgbScan* scan, const float* const rgb[3],
+                                                 std::size_t n) noexcept {
+  reference::table.scan_rgb(scan, rgb, n);
+  for (std::size_t i = 0; i < n; ++i) scan->negative += rgb[0][i] == 0 && std::signbit(rgb[0][i]) ? 1 : 0;
+}
+
+void sigmoid_project_off_by_a_millionth(float* const dst[3], const float* const c[3], const float* scale,
+                                        const float* rows, bool white, const float* weights,
+                                        std::size_t bands, std::size_t n) noexcept {
+  reference::table.sigmoid_project(dst, c, scale, rows, white, weights, bands, n);
+  for (std::size_t i = 0; i < n; ++i) dst[1][i] *= 1.000004F;
+}
+
 struct Fault {
   const char* operation;
   void (*put)(KernelTable&);
@@ -122,6 +156,13 @@ TEST(StressOfNumbers, FaultsAreFound) {
       {"minimum", [](KernelTable& t) { t.minimum = minimum_that_keeps_nan; }},
       {"project to XYZ", [](KernelTable& t) { t.project = project_without_its_last_band; }},
       {"float to half", [](KernelTable& t) { t.float_to_half = half_rounded_down; }},
+      {"film: add colours", [](KernelTable& t) { t.film_add = film_add_without_rests; }},
+      {"film: add colours with filter weights", [](KernelTable&) {}},  // by the same kernel
+      {"film: place samples", [](KernelTable& t) { t.film_place = film_place_one_to_the_right; }},
+      {"count what is outside",
+       [](KernelTable& t) { t.scan_rgb = scan_rgb_that_takes_minus_zero_for_negative; }},
+      {"sigmoid: sum to a colour",
+       [](KernelTable& t) { t.sigmoid_project = sigmoid_project_off_by_a_millionth; }},
   };
   KernelTable bad = reference::table;
   for (const Fault& fault : faults) fault.put(bad);

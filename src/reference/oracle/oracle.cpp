@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "src/data/tables.hpp"
 
@@ -212,6 +213,68 @@ std::array<double, 3> xyz_to_srgb(const std::array<double, 3>& xyz) {
     rgb[k] = det(a) / det(m);
   }
   return rgb;
+}
+
+namespace {
+
+/// CIELAB in long double.
+struct LongLab {
+  long double l, a, b;
+};
+
+LongLab long_lab(const std::array<double, 3>& xyz, const std::array<double, 3>& white) {
+  long double f[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const long double t = static_cast<long double>(xyz[k]) / static_cast<long double>(white[k]);
+    f[k] = t > 216.0L / 24389.0L ? std::cbrt(t) : (24389.0L / 27.0L * t + 16.0L) / 116.0L;
+  }
+  return {116.0L * f[1] - 16.0L, 500.0L * (f[0] - f[1]), 200.0L * (f[1] - f[2])};
+}
+
+/// sqrt(c^7 / (c^7 + 25^7)).
+long double vivid(long double c) {
+  return c == 0 ? 0 : 1 / std::sqrt(1 + std::pow(25 / c, 7.0L));
+}
+
+}  // namespace
+
+Difference ciede2000(const std::array<double, 3>& xyz_a, const std::array<double, 3>& xyz_b,
+                     const std::array<double, 3>& white) {
+  const LongLab x = long_lab(xyz_a, white);
+  const LongLab y = long_lab(xyz_b, white);
+  const long double g = 1.5L - 0.5L * vivid((std::hypot(x.a, x.b) + std::hypot(y.a, y.b)) / 2);
+  const long double cx = std::hypot(g * x.a, x.b);
+  const long double cy = std::hypot(g * y.a, y.b);
+  const long double dot = g * x.a * g * y.a + x.b * y.b;
+  const long double cross = g * x.a * y.b - g * y.a * x.b;
+  Difference out;
+  for (const LongLab& v : {x, y}) {
+    out.size =
+        std::max(out.size, static_cast<double>(std::max({std::abs(v.l), std::abs(v.a), std::abs(v.b)})));
+  }
+  // What is a grey but for a rounding has any hue; of opposite hues the mean is on either side.
+  const long double least = std::min(cx, cy);
+  const bool grey = least > 0 && least < 1e-5L * std::max<long double>(1, out.size);
+  const bool opposite = dot < 0 && std::abs(cross) < 1e-9L * cx * cy;
+  out.undecided = grey || opposite;
+  // The angle between them halved: tan = |cross| / (product of chromas + dot), without cancellation.
+  const long double half = least == 0 ? 0 : std::atan2(std::abs(cross), dot) / 2;
+  const long double dh = std::copysign(2 * std::sqrt(cx * cy) * std::sin(half), cross);
+  const long double degree = std::numbers::pi_v<long double> / 180;
+  const auto part = [](long double v, long double c) { return c == 0 ? 0 : v / c; };
+  const long double hue = std::atan2(part(x.b, cx) + part(y.b, cy), part(g * x.a, cx) + part(g * y.a, cy));
+  const long double t = 1 - 0.17L * std::cos(hue - 30 * degree) + 0.24L * std::cos(2 * hue) +
+                        0.32L * std::cos(3 * hue + 6 * degree) - 0.2L * std::cos(4 * hue - 63 * degree);
+  const long double from_blue = (hue / degree + (hue < 0 ? 360 : 0) - 275) / 25;
+  const long double turn = 60 * degree * std::exp(-from_blue * from_blue);
+  const long double c = (cx + cy) / 2;
+  const long double l2 = ((x.l + y.l) / 2 - 50) * ((x.l + y.l) / 2 - 50);
+  const long double vl = (y.l - x.l) / (1 + 0.015L * l2 / std::sqrt(20 + l2));
+  const long double vc = (cy - cx) / (1 + 0.045L * c);
+  const long double vh = dh / (1 + 0.015L * c * t);
+  out.value =
+      static_cast<double>(std::sqrt(vl * vl + vc * vc + vh * vh - std::sin(turn) * 2 * vivid(c) * vc * vh));
+  return out;
 }
 
 }  // namespace spectile::oracle

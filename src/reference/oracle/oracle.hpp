@@ -35,4 +35,14 @@ std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights,
 std::array<double, 3> xyz_to_srgb(const std::array<double, 3>& xyz);
 std::array<double, 3> srgb_to_xyz(const std::array<double, 3>& rgb);
 
+/// CIEDE2000 of two XYZ colours in long double, with vectors in place of angles.
+struct Difference {
+  double value = 0;
+  double size = 0;  ///< the largest of the colours' coordinates in CIELAB, by magnitude
+  bool undecided =
+      false;  ///< hues nearly opposite, or nearly no chroma: a rounding moves the result by a step
+};
+Difference ciede2000(const std::array<double, 3>& xyz_a, const std::array<double, 3>& xyz_b,
+                     const std::array<double, 3>& white);
+
 }  // namespace spectile::oracle
