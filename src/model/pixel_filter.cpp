@@ -172,12 +172,14 @@ Result<PixelFilter> PixelFilter::finished(PixelFilter filter) {
     magnitudes[axis] = 2 * table->total();
     tables[axis] = table;
   }
-  if (!(integrals[0] > 0 && integrals[1] > 0) || !std::isfinite(magnitudes[0] * magnitudes[1])) {
+  // Of a narrow one both may be above 0, and their product not.
+  filter.integral_ = integrals[0] * integrals[1];
+  if (!(integrals[0] > 0 && filter.integral_ > 0) || !std::isfinite(magnitudes[0] * magnitudes[1])) {
     return make_error(ErrorCode::kBadArgument,
-                      "a filter's integrals along x and y are {} and {}, not above 0 and finite",
+                      "a filter's integrals along x and y, {} and {}, and their product are not above 0 and "
+                      "finite",
                       integrals[0], integrals[1]);
   }
-  filter.integral_ = integrals[0] * integrals[1];
   filter.magnitude_ = filter.has_negative_lobes() ? magnitudes[0] * magnitudes[1] / filter.integral_ : 1;
   filter.table_x_ = tables[0];
   filter.table_y_ = tables[1];

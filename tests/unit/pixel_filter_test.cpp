@@ -148,6 +148,8 @@ TEST(PixelFilter, WhatItCannotBeIsAnErrorThatSaysWhy) {
   fails("box:1:2", ErrorCode::kBadArgument, "1 numbers too many");
   fails("triangle:0.009", ErrorCode::kBadArgument, "0.009");
   fails("gaussian:2:0", ErrorCode::kBadArgument, "sigma of 0");
+  // Integrals above 0 whose product is not.
+  fails("gaussian:2.38:7.74e-321", ErrorCode::kBadArgument, "their product");
   fails("gaussian:2:inf", ErrorCode::kBadArgument, "inf");
   fails("mitchell:2:3:0", ErrorCode::kBadArgument, "b = 3");
   fails("mitchell:2:1:1:1", ErrorCode::kBadArgument, "too many");
