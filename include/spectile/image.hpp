@@ -119,8 +119,8 @@ enum class Store {
   kCoefficients,  ///< the method's three (or four) coefficients, which expand_image() turns into spectra
 };
 
-/// Which pixels are masked: their spectra are black, whatever their RGB (which stays as the preview, and may
-/// be anything, NaN too).
+/// Which pixels are masked: they become black, as spectra and as preview, whatever their RGB (which may be
+/// anything, NaN too).
 enum class Masking {
   kAlpha,  ///< those whose own alpha is 0; none where there is no alpha
   kNone,   ///< none: textures that glow where alpha is 0 keep their colours
@@ -197,8 +197,8 @@ struct ImageReport {
   }
 };
 
-/// Turns an RGB image into a spectral one. R, G, B stay as preview; alpha, other channels and attributes pass
-/// through.
+/// Turns an RGB image into a spectral one. R, G, B stay as preview, black where masked; alpha, other channels
+/// and attributes pass through.
 ///
 /// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or
 /// without chroma. RGB is linear, of the space that the options or the attributes colorInteropID or

@@ -55,9 +55,8 @@ void add_upsample(CLI::App& app, int& exit) {
       ->capture_default_str();
   command->add_option(
       "--mask", a->mask,
-      "Pixels that need no spectra, which become black (preview and alpha stay): an OpenEXR image of the "
-      "same "
-      "size that is 0 there, in its channel A, else Y, else R; or none, so that textures which glow where "
+      "Pixels that need no spectra, which become black (alpha stays): an OpenEXR image of the same size "
+      "that is 0 there, in its channel A, else Y, else R; or none, so that textures which glow where "
       "alpha is 0 keep their colours. By default, where the image's own alpha is 0");
   command->add_flag("--no-skip", a->no_skip,
                     "Compute black, constant and repeated parts like any other; the file is the same");

@@ -39,7 +39,6 @@ void LineStats::add(const LineStats& later) {
   over_one += later.over_one;
   limited += later.limited;
   masked += later.masked;
-  masked_colored += later.masked_colored;
   black += later.black;
   constant += later.constant;
   costs.add(later.costs);

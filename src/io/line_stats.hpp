@@ -43,7 +43,6 @@ struct LineStats {
   std::uint64_t over_one = 0;
   std::uint64_t limited = 0;
   std::uint64_t masked = 0;
-  std::uint64_t masked_colored = 0;  // ... though they have a colour that is not black
   std::uint64_t black = 0;           // masked ones too
   std::uint64_t constant = 0;        // in whole blocks of one colour, not black
   SkipCosts costs;

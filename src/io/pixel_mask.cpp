@@ -22,6 +22,21 @@ std::uint64_t zeros(const std::byte* row, Sample zero, std::uint8_t* masked, std
   return count;
 }
 
+/// Notes which samples are not 0, NaN being one.
+template <class Sample>
+void note_colored(const std::byte* row, Sample zero, std::uint8_t* colored, std::size_t width) {
+  const auto* const samples = reinterpret_cast<const Sample*>(row);
+  for (std::size_t x = 0; x < width; ++x) {
+    colored[x] = static_cast<std::uint8_t>(colored[x] | ((samples[x] & zero) != 0 ? 1 : 0));
+  }
+}
+
+template <class Sample>
+void blacken(std::byte* row, const std::uint8_t* masked, std::size_t width) {
+  auto* const samples = reinterpret_cast<Sample*>(row);
+  for (std::size_t x = 0; x < width; ++x) samples[x] = masked[x] != 0 ? 0 : samples[x];
+}
+
 }  // namespace
 
 Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const RgbSource& source, int threads) {
@@ -35,6 +50,7 @@ Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const Rgb
     mask.plane_ = source.alpha();
     mask.type_ = source.planes()[*mask.plane_].type;
   }
+  for (std::size_t k = 0; k < mask.color_types_.size(); ++k) mask.color_types_[k] = source.planes()[k].type;
   if (!from_file) return mask;
   auto file = ExrInput::open(options.mask, threads);
   if (!file) return file.error();
@@ -97,6 +113,32 @@ Result<void> PixelMask::read(Strip& strip) {
   const int height = height_of(region_ ? region_->header() : file_->header(part_));
   if (strip.first_line + strip.lines == height) SPECTILE_TRY(file_->unchanged());
   return {};
+}
+
+Result<std::uint64_t> PixelMask::apply(Strip& strip) {
+  SPECTILE_TRY(read(strip));
+  std::uint64_t count = 0;
+  if (!plane_) return count;
+  const auto width = static_cast<std::size_t>(strip.width);
+  masked_.resize(width);
+  colored_.resize(width);
+  for (int at = strip.first_line; at < strip.first_line + strip.lines; ++at) {
+    if (line(strip, at, masked_.data()) == 0) continue;
+    std::fill(colored_.begin(), colored_.end(), std::uint8_t{0});
+    for (std::size_t k = 0; k < color_types_.size(); ++k) {
+      std::byte* const row = strip.row(k, at);
+      if (color_types_[k] == Imf::HALF) {
+        note_colored<std::uint16_t>(row, 0x7FFF, colored_.data(), width);
+        blacken<std::uint16_t>(row, masked_.data(), width);
+      } else {
+        const std::uint32_t zero = color_types_[k] == Imf::FLOAT ? 0x7FFFFFFF : 0xFFFFFFFF;
+        note_colored<std::uint32_t>(row, zero, colored_.data(), width);
+        blacken<std::uint32_t>(row, masked_.data(), width);
+      }
+    }
+    for (std::size_t x = 0; x < width; ++x) count += masked_[x] & colored_[x];
+  }
+  return count;
 }
 
 std::uint64_t PixelMask::line(const Strip& strip, int line, std::uint8_t* masked) const {

@@ -93,11 +93,21 @@ class UpsampleJob : public io::FilteredJob {
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
     auto strip = source_.read(first_line, lines);
-    if (strip) SPECTILE_TRY(mask_.read(**strip));
+    if (!strip) return strip;
+    const auto colored = mask_.apply(**strip);
+    if (!colored) return colored.error();
+    // Mip levels read the lines again.
+    if (first_line >= counted_lines_) {
+      masked_colored_ += *colored;
+      counted_lines_ = first_line + lines;
+    }
     return strip;
   }
 
   bool repeats() const override { return true; }
+
+  /// Masked pixels that were not black.
+  std::uint64_t masked_colored() const noexcept { return masked_colored_; }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
@@ -147,31 +157,17 @@ class UpsampleJob : public io::FilteredJob {
   }
 
  private:
-  /// A line's RGB as the method takes it, black where masked.
+  /// A line's RGB as the method takes it.
   io::ColorStage::Settled settle(Work& work, const Strip& strip, int line, LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     work.rgb.set_width(width);
     stage_.load(strip, line, work.rgb);
-    blacken(strip, line, work, stats);
+    stats.masked += mask_.line(strip, line, work.masked.data());
     return stage_.settle(line, work.rgb, width, stats);
   }
 
   static std::uint64_t pixels_of(const io::RgbSource& source) {
     return static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
-  }
-
-  /// Masked pixels become black before anybody looks at what they are.
-  void blacken(const Strip& strip, int line, Work& work, LineStats& stats) const {
-    const std::uint64_t count = mask_.line(strip, line, work.masked.data());
-    if (count == 0) return;
-    stats.masked += count;
-    for (std::size_t x = 0; x < static_cast<std::size_t>(strip.width); ++x) {
-      float* const rgb[3] = {work.rgb.rows[0] + x, work.rgb.rows[1] + x, work.rgb.rows[2] + x};
-      if (work.masked[x] == 0) continue;
-      // Not black, or not a number.
-      if (!(*rgb[0] == 0 && *rgb[1] == 0 && *rgb[2] == 0)) ++stats.masked_colored;
-      for (float* const component : rgb) *component = 0;
-    }
   }
 
   void spectra(Work& work, const io::LineCoefficients& of, std::size_t width, std::byte* packed,
@@ -215,6 +211,8 @@ class UpsampleJob : public io::FilteredJob {
   const UpsampleImageOptions& options_;
   const io::ExrWriter* writer_ = nullptr;
   std::vector<Work> works_;
+  std::uint64_t masked_colored_ = 0;
+  int counted_lines_ = 0;
   io::ColorStage stage_;
   io::LineSolver solver_;
   io::BandPacker packer_;
@@ -272,10 +270,10 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
   report.notes = (*source)->notes();
-  if (options.masking == Masking::kAlpha && stats.masked_colored > 0) {
+  if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
     report.notes.push_back(
-        fmt::format("{} pixel{} of alpha 0 with a colour: black as spectra; --mask none keeps them",
-                    stats.masked_colored, stats.masked_colored == 1 ? "" : "s"));
+        fmt::format("{} pixel{} of alpha 0 with a colour: they become black; --mask none keeps them",
+                    job.masked_colored(), job.masked_colored() == 1 ? "" : "s"));
   }
   return report;
 }

@@ -15,39 +15,75 @@ constexpr double kUnitsOfXyz = 1e4;
 /// Sizes of weights are held down by this share of the mean metric: noise must not grow.
 constexpr double kTame = 1e-6;
 
-/// Differences count to this power: between their mean (1), which leaves a few large ones, and their squares,
-/// which spend precision on those few.
-constexpr double kPower = 1.5;
-/// Largest and least factor of a sample's share.
-constexpr double kMostShare = 10;
-
-Matrix scaled(const Matrix& m, const Vector& rows, const Vector& columns) {
-  return rows.asDiagonal() * m * columns.asDiagonal();
-}
+/// Differences below this share of the unit count as squares, which have a slope of zero at none.
+constexpr double kSmall = 0.1;
 
 }  // namespace
 
 Equations::Equations(const Problem& p, Eigen::Index k, bool bands)
     : p_(&p), layout_{k, static_cast<Eigen::Index>(p.white.size()), bands} {
-  share_ = p.share.replicate(1, layout_.lights);
   light_share_ = Vector::Ones(layout_.lights);
+  share_out();
+}
+
+void Equations::share_out() {
+  share_ = p_->share.replicate(1, layout_.lights);
+  share_.topRows(p_->measured) *= light_share_.asDiagonal();
+}
+
+void Equations::set_power(double power, double unit) {
+  power_ = power;
+  unit_ = unit;
+  share_out();
 }
 
 Matrix Equations::weights_of(const Numbers& n, Eigen::Index l) const {
   return n.emission.col(l).asDiagonal() * n.sensor;
 }
 
-/// The squared metric, with shares, times each row. Shapes: [N][3].
-Matrix Equations::pulled(const Matrix& miss, Eigen::Index l) const {
+Matrix Equations::miss_of(const Matrix& values, const Numbers& n, Eigen::Index l) const {
+  return values * weights_of(n, l) - p_->truth[static_cast<std::size_t>(l)].transpose();
+}
+
+/// A sample whose squared difference is q = miss' S miss adds unit^2 (q / unit^2 + small^2)^(power / 2). With
+/// f for half its derivative by q, and g for half the second, half its derivatives by the miss are 2 f S miss
+/// and 2 f S + 4 g (S miss) (S miss)'. Smooth deviations, which are no colours, count as squares.
+Equations::Bent Equations::bent(const Matrix& miss, Eigen::Index l, bool derivatives) const {
   const Matrix& squared = p_->squared_metric[static_cast<std::size_t>(l)];
-  Matrix out = Matrix::Zero(miss.rows(), 3);
-  for (Eigen::Index s = 0; s < kPairs; ++s) {
-    const Eigen::Index a = kFirstOf[s];
-    const Eigen::Index b = kSecondOf[s];
-    out.col(a).array() += squared.col(s).array() * miss.col(b).array();
-    if (a != b) out.col(b).array() += squared.col(s).array() * miss.col(a).array();
+  const double unit = unit_ * unit_;
+  Bent out;
+  if (derivatives) {
+    out.pull.resize(miss.rows(), 3);
+    out.metric.resize(miss.rows(), kPairs);
   }
-  return share_.col(l).asDiagonal() * out;
+  for (Eigen::Index i = 0; i < miss.rows(); ++i) {
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+    for (Eigen::Index s = 0; s < kPairs; ++s) {
+      const Eigen::Index a = kFirstOf[s];
+      const Eigen::Index b = kSecondOf[s];
+      pull[a] += squared(i, s) * miss(i, b);
+      if (a != b) pull[b] += squared(i, s) * miss(i, a);
+    }
+    const double q = pull.dot(miss.row(i));
+    double value = q;
+    double first = 1;
+    double second = 0;
+    if (power_ != 2 && i < p_->measured) {
+      const double u = q / unit + kSmall * kSmall;
+      const double power = std::pow(u, power_ / 2);
+      value = unit * power;
+      first = power_ / 2 * power / u;
+      second = (power_ - 2) * first / (u * unit);
+    }
+    out.sum += share_(i, l) * value;
+    if (!derivatives) continue;
+    out.pull.row(i) = share_(i, l) * first * pull.transpose();
+    for (Eigen::Index s = 0; s < kPairs; ++s) {
+      out.metric(i, s) =
+          share_(i, l) * (first * squared(i, s) + second * pull[kFirstOf[s]] * pull[kSecondOf[s]]);
+    }
+  }
+  return out;
 }
 
 void Equations::start_weights(Numbers& n) const {
@@ -71,7 +107,8 @@ void Equations::start_weights(Numbers& n) const {
         }
       }
     }
-    const Matrix aims = values.transpose() * pulled(p_->truth[light].transpose(), l);
+    // Least squares: what pulls from a miss of all pulls to the truth.
+    const Matrix aims = values.transpose() * bent(p_->truth[light].transpose(), l, true).pull;
     Vector right(3 * k);
     for (Eigen::Index i = 0; i < k; ++i) {
       right.segment<3>(3 * i) = aims.row(i).transpose() + white * p_->white[light];
@@ -107,9 +144,7 @@ double Equations::cost(const Numbers& n) const {
   const Matrix values = values_of(p_->samples, n.lambda, n.half);
   double sum = kWhiteShare * kUnitsOfXyz * white_miss(n, nullptr).squaredNorm();
   for (Eigen::Index l = 0; l < layout_.lights; ++l) {
-    const Matrix weights = weights_of(n, l);
-    const Matrix miss = values * weights - p_->truth[static_cast<std::size_t>(l)].transpose();
-    sum += miss.cwiseProduct(pulled(miss, l)).sum() + tame() * weights.squaredNorm();
+    sum += bent(miss_of(values, n, l), l, false).sum + tame() * weights_of(n, l).squaredNorm();
   }
   return sum;
 }
@@ -118,86 +153,65 @@ void Equations::build(const Numbers& n, Matrix& normal, Vector& right) const {
   normal = Matrix::Zero(layout_.unknowns(), layout_.unknowns());
   right = Vector::Zero(layout_.unknowns());
   const Slopes slopes = slopes_of(p_->samples, n.lambda, n.half);
-  for (Eigen::Index l = 0; l < layout_.lights; ++l) add_light(n, l, slopes, normal, right);
+  Matrix features(p_->samples.count(), (layout_.bands ? 3 : 2) * layout_.k);
+  features.leftCols(2 * layout_.k) << slopes.values, slopes.by_lambda;
+  if (layout_.bands) features.rightCols(layout_.k) = slopes.by_half;
+  for (Eigen::Index l = 0; l < layout_.lights; ++l) add_light(n, l, features, normal, right);
   // The lower half follows from the upper.
   normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
   add_tame(n, normal, right);
 }
 
-/// Adds a light's part, above the diagonal and on it. A sample's miss depends on three kinds of unknowns of a
-/// wavelength: on where and how wide it is, by slope times emission times the sensor's row; on the sensor's
-/// weights, by value times emission; on emission, by value times the sensor's row. So all sums are those of
-/// products of values and slopes, six times, for the six pairs of XYZ in the squared metric.
-void Equations::add_light(const Numbers& n, Eigen::Index l, const Slopes& s, Matrix& normal,
+/// Adds a light's part, above the diagonal and on it. A sample's miss depends on an unknown of a wavelength
+/// by one of the sample's features there (its value, or its slope in where or how wide the wavelength is),
+/// times a colour: so all sums are those of products of two features, six times, for the six pairs of XYZ in
+/// the squared metric.
+void Equations::add_light(const Numbers& n, Eigen::Index l, const Matrix& features, Matrix& normal,
                           Vector& right) const {
-  const auto light = static_cast<std::size_t>(l);
+  struct Unknown {
+    Eigen::Index at;
+    Eigen::Index feature;
+    Eigen::Vector3d color;
+  };
   const Layout& at = layout_;
   const Eigen::Index k = at.k;
-  const Vector e = n.emission.col(l);
-  const Vector ones = Vector::Ones(k);
-  // What multiplies the sensor's row, and where its unknowns begin.
-  struct Part {
-    const Matrix* slopes;
-    Eigen::Index first;
-    Vector factor;
-  };
-  std::vector<Part> parts = {{&s.by_lambda, at.lambda(0), e}};
-  if (at.bands) parts.push_back({&s.by_half, at.half(0), e});
-  if (at.lights > 1) parts.push_back({&s.values, at.emission(l, 0), ones});
+  std::vector<Unknown> unknowns;
+  // In the order of the unknowns.
+  for (Eigen::Index i = 0; i < k; ++i) {
+    unknowns.push_back({at.lambda(i), k + i, n.emission(i, l) * n.sensor.row(i).transpose()});
+  }
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      unknowns.push_back({at.sensor(i, c), i, n.emission(i, l) * Eigen::Vector3d::Unit(c)});
+    }
+  }
+  for (Eigen::Index i = 0; at.bands && i < k; ++i) {
+    unknowns.push_back({at.half(i), 2 * k + i, n.emission(i, l) * n.sensor.row(i).transpose()});
+  }
+  for (Eigen::Index i = 0; at.lights > 1 && i < k; ++i) {
+    unknowns.push_back({at.emission(l, i), i, n.sensor.row(i).transpose()});
+  }
 
+  const Bent part = bent(miss_of(features.leftCols(k), n, l), l, true);
   for (Eigen::Index pair = 0; pair < kPairs; ++pair) {
-    const Vector weight = p_->squared_metric[light].col(pair).cwiseProduct(share_.col(l));
     const Eigen::Index a = kFirstOf[pair];
     const Eigen::Index b = kSecondOf[pair];
-    const int orders = a == b ? 1 : 2;
-    const Matrix weighed = weight.asDiagonal() * s.values;
-    const Matrix values = scaled(s.values.transpose() * weighed, e, e);
-    for (int order = 0; order < orders; ++order) {
-      const Eigen::Index x = order == 0 ? a : b;
-      const Eigen::Index y = order == 0 ? b : a;
-      for (Eigen::Index i = 0; i < k; ++i) {
-        for (Eigen::Index j = 0; j < k; ++j) {
-          if (at.sensor(i, x) <= at.sensor(j, y)) normal(at.sensor(i, x), at.sensor(j, y)) += values(i, j);
-        }
-      }
-    }
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const Part& part = parts[p];
-      const Matrix cross = part.slopes->transpose() * weighed;
-      for (int order = 0; order < orders; ++order) {
-        const Eigen::Index x = order == 0 ? a : b;
-        const Eigen::Index y = order == 0 ? b : a;
-        const Matrix with_sensor = scaled(cross, part.factor.cwiseProduct(n.sensor.col(x)), e);
-        for (Eigen::Index i = 0; i < k; ++i) {
-          for (Eigen::Index j = 0; j < k; ++j) {
-            const Eigen::Index row = std::min(part.first + i, at.sensor(j, y));
-            normal(row, std::max(part.first + i, at.sensor(j, y))) += with_sensor(i, j);
-          }
-        }
-      }
-      for (std::size_t q = p; q < parts.size(); ++q) {
-        const Part& other = parts[q];
-        const Matrix both = part.slopes->transpose() * (weight.asDiagonal() * *other.slopes);
-        for (int order = 0; order < orders; ++order) {
-          const Eigen::Index x = order == 0 ? a : b;
-          const Eigen::Index y = order == 0 ? b : a;
-          normal.block(part.first, other.first, k, k) += scaled(
-              both, part.factor.cwiseProduct(n.sensor.col(x)), other.factor.cwiseProduct(n.sensor.col(y)));
-        }
+    const Matrix weighed = part.metric.col(pair).asDiagonal() * features;
+    Matrix sums(features.cols(), features.cols());
+    sums.triangularView<Eigen::Lower>() = features.transpose() * weighed;
+    sums.triangularView<Eigen::StrictlyUpper>() = sums.transpose();
+    for (std::size_t v = 0; v < unknowns.size(); ++v) {
+      const Unknown& other = unknowns[v];
+      for (std::size_t u = 0; u <= v; ++u) {
+        const Unknown& one = unknowns[u];
+        double colors = one.color[a] * other.color[b];
+        if (a != b) colors += one.color[b] * other.color[a];
+        normal(one.at, other.at) += colors * sums(one.feature, other.feature);
       }
     }
   }
-  const Matrix miss = s.values * weights_of(n, l) - p_->truth[light].transpose();
-  const Matrix pull = pulled(miss, l);
-  const Matrix on_values = s.values.transpose() * pull;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    for (Eigen::Index c = 0; c < 3; ++c) right[at.sensor(i, c)] += e[i] * on_values(i, c);
-  }
-  for (const Part& part : parts) {
-    const Matrix on_slopes = part.slopes->transpose() * pull;
-    right.segment(part.first, k) +=
-        part.factor.cwiseProduct(on_slopes.cwiseProduct(n.sensor).rowwise().sum());
-  }
+  const Matrix on_features = features.transpose() * part.pull;
+  for (const Unknown& u : unknowns) right[u.at] += on_features.row(u.feature).dot(u.color);
 }
 
 /// Adds what holds down the sizes of products of sensor weights and emission values.
@@ -236,23 +250,27 @@ Vector Equations::white_miss(const Numbers& n, Matrix* slopes) const {
   return out;
 }
 
-void Equations::weigh_by_difference(const Numbers& n) {
-  Matrix all(p_->measured, layout_.lights);
+Vector Equations::light_means(const Numbers& n) const {
+  Vector out(layout_.lights);
   for (Eigen::Index l = 0; l < layout_.lights; ++l) {
     const auto light = static_cast<std::size_t>(l);
-    const auto one = differences(p_->truth[light].leftCols(p_->measured),
-                                 predict(p_->samples, n, l).leftCols(p_->measured), p_->white[light]);
-    all.col(l) = Eigen::Map<const Vector>(one.data(), p_->measured);
+    const auto all = differences(p_->truth[light].leftCols(p_->scene),
+                                 predict(p_->samples, n, l).leftCols(p_->scene), p_->white[light]);
+    out[l] = Eigen::Map<const Vector>(all.data(), p_->scene).mean();
   }
-  const double mean = all.mean();
-  if (!(mean > 0)) return;
-  for (Eigen::Index l = 0; l < layout_.lights; ++l) {
-    light_share_[l] *= all.col(l).mean() / mean;
-    for (Eigen::Index i = 0; i < p_->measured; ++i) {
-      const double factor = std::pow(all(i, l) / mean, kPower - 2);
-      share_(i, l) = light_share_[l] * p_->share[i] * std::clamp(factor, 1 / kMostShare, kMostShare);
-    }
-  }
+  return out;
+}
+
+double Equations::mean_difference(const Numbers& n) const {
+  return light_means(n).mean();
+}
+
+void Equations::balance_lights(const Numbers& n) {
+  const Vector means = light_means(n);
+  if (!(means.mean() > 0)) return;
+  // Squared: a light's mean moves by less than its share does.
+  light_share_ = light_share_.cwiseProduct((means / means.mean()).cwiseAbs2());
+  share_out();
 }
 
 }  // namespace spectile::plan

@@ -1,7 +1,6 @@
 // Fitting a plan: wavelengths, widths, sensor weights and emission values to the least colour differences.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "src/ops/plan_equations.hpp"
 
@@ -16,10 +15,23 @@ constexpr double kNarrowestNm = 2;
 /// Longest step of a wavelength or width.
 constexpr double kLongestNm = 6;
 
-/// Rounds of weighing anew, and steps in the first and in each further.
-constexpr int kRounds = 8;
-constexpr int kFirstSteps = 40;
-constexpr int kSteps = 20;
+/// Differences count to this power at last. With one light between their mean (1), which leaves a few large
+/// ones, and their squares, which spend precision on those few. With several the bands are no light's own:
+/// each light then has its few colours that come out worst, so these count more.
+constexpr double kOneLightPower = 1.5;
+constexpr double kSharedPower = 2.5;
+
+/// Steps by squares and by the power itself before starts are compared, of those that are left then, and of
+/// each round of the best: lights are balanced before each, and the worst products taken before the first
+/// few.
+constexpr int kSquareSteps = 8;
+constexpr int kPowerSteps = 8;
+constexpr int kLaterSteps = 15;
+constexpr int kRounds = 6;
+constexpr int kTakingRounds = 4;
+
+/// Where all colours are met there is still something to divide by.
+constexpr double kLeastUnit = 1e-6;
 
 class Fit {
  public:
@@ -31,23 +43,31 @@ class Fit {
     equations_.start_weights(now_);
   }
 
-  /// The first round; returns the sum of squares.
-  double begin() {
-    descend(kFirstSteps);
-    return equations_.cost(now_);
+  double mean_difference() const { return equations_.mean_difference(now_); }
+  void by_squares() { descend(kSquareSteps); }
+  /// Returns what is left: the same measure for all starts, if `unit` is.
+  double by_power(double unit, int steps) {
+    equations_.set_power(power(), unit);
+    return descend(steps);
   }
-
-  /// The others: from squares of differences to the differences themselves, whose means and maxima count.
-  Numbers finish() {
-    for (int round = 1; round < kRounds; ++round) {
-      equations_.weigh_by_difference(now_);
-      descend(kSteps);
+  void take(Problem& p) {
+    take_worst(p, now_);
+    equations_.set_power(2, 1);
+  }
+  Numbers finish(Problem& p, double unit) {
+    for (int round = 0; round < kRounds; ++round) {
+      if (round < kTakingRounds) take_worst(p, now_);
+      equations_.set_power(power(), unit);
+      equations_.balance_lights(now_);
+      descend(kLaterSteps);
     }
     make_white_exact();
     return now_;
   }
 
  private:
+  double power() const { return equations_.layout().lights > 1 ? kSharedPower : kOneLightPower; }
+
   /// Neighbours that come too near share what is between them.
   void keep_apart(Numbers& n) const {
     const bool bands = equations_.layout().bands;
@@ -84,8 +104,8 @@ class Fit {
     return out;
   }
 
-  /// Levenberg and Marquardt's steps, with white as constraints.
-  void descend(int steps) {
+  /// Levenberg and Marquardt's steps, with white as constraints. Returns the sum it comes to.
+  double descend(int steps) {
     const Layout& at = equations_.layout();
     double damping = 1e-3;
     double best = equations_.cost(now_);
@@ -117,13 +137,14 @@ class Fit {
           best = sum;
           now_ = next;
           damping = std::max(1e-9, damping * 0.3);
-          if (little) return;
+          if (little) return best;
         } else {
           damping *= 5;
         }
       }
-      if (!better) return;
+      if (!better) return best;
     }
+    return best;
   }
 
   /// Newton's steps of least length to the white of every light, by weights alone.
@@ -142,17 +163,38 @@ class Fit {
 
 }  // namespace
 
-Numbers fit(const Problem& problem, const std::vector<Start>& starts) {
-  std::optional<Fit> best;
-  double least = 0;
-  for (const Start& start : starts) {
-    Fit one(problem, start.wavelengths_nm, start.half_nm);
-    const double sum = one.begin();
-    if (best && !(sum < least)) continue;
-    best.emplace(std::move(one));
-    least = sum;
+void take_worst(Problem& problem, const Start& start) {
+  Fit one(problem, start.wavelengths_nm, start.half_nm);
+  for (int round = 0; round < kTakingRounds; ++round) {
+    one.by_squares();
+    one.take(problem);
   }
-  return best->finish();
+}
+
+Numbers fit(Problem& problem, const std::vector<Start>& starts) {
+  std::vector<Fit> fits;
+  for (const Start& start : starts) {
+    fits.emplace_back(problem, start.wavelengths_nm, start.half_nm);
+    fits.back().by_squares();
+  }
+  // What all are measured by.
+  double unit = fits.front().mean_difference();
+  for (const Fit& one : fits) unit = std::min(unit, one.mean_difference());
+  unit = std::max(unit, kLeastUnit);
+  const auto race = [&](int steps, std::size_t left) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < fits.size(); ++i) order.emplace_back(fits[i].by_power(unit, steps), i);
+    std::sort(order.begin(), order.end());
+    std::vector<Fit> best;
+    for (std::size_t i = 0; i < std::min(left, order.size()); ++i) {
+      best.push_back(std::move(fits[order[i].second]));
+    }
+    fits = std::move(best);
+  };
+  // The most promising half goes on, then the best.
+  race(kPowerSteps, (fits.size() + 1) / 2);
+  race(kLaterSteps, 1);
+  return fits.front().finish(problem, unit);
 }
 
 }  // namespace spectile::plan

@@ -62,33 +62,47 @@ Matrix columns(const Matrix& table, const std::vector<Eigen::Index>& which) {
   return out;
 }
 
+/// Starts of an exchange: the greedy one, and others spread evenly.
+constexpr int kExchanges = 2;
+/// With one light fits are quick: so many more starts beside each, every wavelength up to so far from there.
+constexpr int kNearStarts = 3;
+constexpr double kNearNm = 10;
+/// Plans whose worst products are taken before: where the second differs from the first, it errs elsewhere.
+constexpr int kFirstPlans = 2;
+
 /// The nearest whole picometre.
 double picometres(double nm) {
   return std::round(nm * 1000) / 1000;
 }
 
-/// Starts beside those of the exchange, each wavelength up to so far from there.
-constexpr double kStartNm = 10;
-
-/// Where a fit begins: from exchanges over bands of several widths, or over points, and near them.
-std::vector<plan::Start> starts_of(const plan::Problem& problem, const PlannerOptions& o, std::size_t count) {
+/// Where a fit begins: from exchanges over points, or over bands of several widths, with the dyes at several
+/// weights. Which start ends best only the fit can tell; these lead to different places most often. For more
+/// bounces, products that the first plans err most at join the problem before, so that starts mind them too.
+std::vector<plan::Start> starts_of(plan::Problem& problem, const PlannerOptions& o, std::size_t count) {
   // Shares of the visible range that a band begins with.
   const double share = 300 / static_cast<double>(count);
   const bool bands = o.sampling == PlanSampling::kBands;
-  const auto halves = bands ? std::vector<double>{0.25 * share, 0.1 * share} : std::vector<double>{0};
+  const auto halves =
+      bands ? std::vector<double>{0.25 * share, 0.4 * share, 0.1 * share} : std::vector<double>{0};
+  for (int i = 0; o.bounces > 1 && i < kFirstPlans; ++i) {
+    plan::take_worst(problem,
+                     {plan::choose_wavelengths(problem, count, halves[0], 1, kExchanges), halves[0]});
+  }
   std::vector<plan::Start> out;
   // The same starts every time.
   std::mt19937_64 random(5);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   for (const double half : halves) {
-    const int exchanges = o.lights.size() == 1 ? 3 : 1;
-    out.push_back({plan::choose_wavelengths(problem, count, half, exchanges), half});
-    for (int i = 0; i < (bands ? 1 : 2); ++i) {
-      plan::Start near = out.back();
-      for (double& nm : near.wavelengths_nm) {
-        nm += kStartNm * (static_cast<double>(random() >> 11U) * 0x1p-52 - 1);
+    for (const double dyes : {1.0, 4.0}) {
+      const plan::Start start = {plan::choose_wavelengths(problem, count, half, dyes, kExchanges), half};
+      out.push_back(start);
+      for (int i = 0; o.lights.size() == 1 && i < kNearStarts; ++i) {
+        plan::Start near = start;
+        for (double& nm : near.wavelengths_nm) {
+          nm += kNearNm * (static_cast<double>(random() >> 11U) * 0x1p-52 - 1);
+        }
+        std::sort(near.wavelengths_nm.begin(), near.wavelengths_nm.end());
+        out.push_back(std::move(near));
       }
-      std::sort(near.wavelengths_nm.begin(), near.wavelengths_nm.end());
-      out.push_back(std::move(near));
     }
   }
   return out;
@@ -96,7 +110,7 @@ std::vector<plan::Start> starts_of(const plan::Problem& problem, const PlannerOp
 
 Numbers fitted(const Matrix& reflectances, const PlannerOptions& o, const std::vector<Matrix>& integrals,
                std::size_t count) {
-  const plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
+  plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
   Numbers n = plan::fit(problem, starts_of(problem, o, count));
   // Whole picometres, which names of channels hold; bands that touch still do not overlap.
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <set>
 #include <spectile/color_difference.hpp>
 #include <spectile/sensor.hpp>
 
@@ -14,12 +16,25 @@ namespace {
 
 /// What the dyes, and the smooth deviations, count beside the reflectances: enough that no spectrum comes out
 /// wild that no measurement has shown, little enough to leave the measured ones their precision. By
-/// cross-validation: a third of this, or three times it, has higher means or higher maxima.
-constexpr double kDyeShare = 0.1;
+/// cross-validation: a third of this, or three times it, has higher means or higher maxima. The bands of one
+/// light have precision to spare for more of them, and further out; those of many have not.
+struct Dyes {
+  Eigen::Index count;
+  double first_nm, last_nm;
+  double share;
+};
+constexpr Dyes kOneLightDyes = {400, 380, 780, 0.2};
+constexpr Dyes kSharedDyes = {200, 390, 730, 0.1};
 constexpr double kSmoothShare = 1e-2;
 
 /// Products that a fit takes beside the reflectances themselves, for each number of bounces.
 constexpr std::size_t kProducts = 300;
+/// Products, for each number of bounces, among which the worst are looked for; and how many are taken at a
+/// time under each light: random ones alone miss the few dark saturated ones that err most.
+constexpr std::size_t kPool = 5000;
+constexpr std::size_t kWorst = 20;
+/// Where smooth deviations are judged.
+constexpr double kGrey = 0.2;
 
 std::array<double, 3> triple(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
@@ -132,42 +147,95 @@ PlanError summary(std::vector<double> d) {
   return out;
 }
 
-Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& lights) {
-  Problem out;
-  const Matrix dyes = dye_spectra();
-  const Matrix smooth = smooth_spectra();
-  const Eigen::Index given = reflectances.cols();
-  Matrix table(kGrid, given + dyes.cols() + smooth.cols());
-  table << reflectances, dyes, smooth;
-  out.samples = sample_set(std::move(table));
-  // The order of samples: reflectances, their products, dyes, smooth deviations.
-  auto& factors = out.samples.factors;
-  factors.resize(static_cast<std::size_t>(given));
-  for (int b = 2; b <= bounces; ++b) add_products(out.samples, given, b, kProducts);
-  const auto scene = out.samples.count();
-  for (Eigen::Index i = given; i < out.samples.table.cols(); ++i) factors.push_back({i});
-  out.measured = scene + dyes.cols();
-  out.share = Vector::Ones(out.samples.count());
-  const auto whole = static_cast<double>(scene);
-  out.share.segment(scene, dyes.cols()).setConstant(kDyeShare * whole / static_cast<double>(dyes.cols()));
-  out.share.tail(smooth.cols()).setConstant(kSmoothShare * whole / static_cast<double>(smooth.cols()));
-  for (const Matrix& light : lights) {
-    out.white.push_back(white_of(light));
-    out.truth.push_back(truth_of(out.samples, light));
+namespace {
+
+/// True colours, and the squared metric there, of the samples.
+void judge(Problem& p) {
+  p.truth.clear();
+  p.squared_metric.clear();
+  const Eigen::Index smooth = p.samples.count() - p.measured;
+  for (std::size_t l = 0; l < p.integrals.size(); ++l) {
+    p.truth.push_back(truth_of(p.samples, p.integrals[l]));
     // Smooth spectra are deviations: they are judged at a middle grey.
-    Matrix colors = out.truth.back();
-    constexpr double kGrey = 0.2;
-    colors.rightCols(smooth.cols()) = (kGrey * out.white.back()).replicate(1, smooth.cols());
-    const auto roots = metrics(colors, out.white.back());
-    Matrix squared(out.samples.count(), kPairs);
+    Matrix colors = p.truth.back();
+    colors.rightCols(smooth) = (kGrey * p.white[l]).replicate(1, smooth);
+    const auto roots = metrics(colors, p.white[l]);
+    Matrix squared(p.samples.count(), kPairs);
     for (Eigen::Index i = 0; i < squared.rows(); ++i) {
       const Eigen::Matrix3d& root = roots[static_cast<std::size_t>(i)];
       const Eigen::Matrix3d square = root.transpose() * root;
       for (Eigen::Index s = 0; s < kPairs; ++s) squared(i, s) = square(kFirstOf[s], kSecondOf[s]);
     }
-    out.squared_metric.push_back(std::move(squared));
+    p.squared_metric.push_back(std::move(squared));
   }
+}
+
+}  // namespace
+
+Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& lights) {
+  Problem out;
+  out.integrals = lights;
+  for (const Matrix& light : lights) out.white.push_back(white_of(light));
+  const Dyes& dye = lights.size() > 1 ? kSharedDyes : kOneLightDyes;
+  const Matrix dyes = dye_spectra(dye.count, dye.first_nm, dye.last_nm);
+  const Matrix smooth = smooth_spectra();
+  const Eigen::Index given = reflectances.cols();
+  Matrix table(kGrid, given + dyes.cols() + smooth.cols());
+  table << reflectances, dyes, smooth;
+  out.samples = sample_set(std::move(table));
+  auto& factors = out.samples.factors;
+  factors.resize(static_cast<std::size_t>(given));
+  if (bounces > 1) {
+    out.pool = sample_set(reflectances);
+    out.pool.factors.clear();
+    for (int b = 2; b <= bounces; ++b) {
+      add_products(out.samples, given, b, kProducts);
+      add_products(out.pool, given, b, kPool);
+    }
+    for (const Matrix& light : lights) out.pool_truth.push_back(truth_of(out.pool, light));
+  }
+  out.scene = out.samples.count();
+  for (Eigen::Index i = given; i < out.samples.table.cols(); ++i) factors.push_back({i});
+  out.measured = out.scene + dyes.cols();
+  out.share = Vector::Ones(out.samples.count());
+  const auto whole = static_cast<double>(out.scene);
+  out.share.segment(out.scene, dyes.cols()).setConstant(dye.share * whole / static_cast<double>(dyes.cols()));
+  out.share.tail(smooth.cols()).setConstant(kSmoothShare * whole / static_cast<double>(smooth.cols()));
+  judge(out);
   return out;
+}
+
+void take_worst(Problem& p, const Numbers& numbers) {
+  const auto count = static_cast<std::size_t>(p.pool.count());
+  if (count == 0) return;
+  std::set<std::size_t> taken;
+  for (std::size_t l = 0; l < p.integrals.size(); ++l) {
+    const auto wrong =
+        differences(p.pool_truth[l], predict(p.pool, numbers, static_cast<Eigen::Index>(l)), p.white[l]);
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(kWorst, count));
+    // Of equal ones the first, everywhere.
+    std::partial_sort(order.begin(), end, order.end(), [&](std::size_t a, std::size_t b) {
+      return wrong[a] != wrong[b] ? wrong[a] > wrong[b] : a < b;
+    });
+    taken.insert(order.begin(), end);
+  }
+  auto& factors = p.samples.factors;
+  const std::set<std::vector<Eigen::Index>> known(factors.begin(), factors.end());
+  std::set<std::vector<Eigen::Index>> more;
+  for (const std::size_t i : taken) {
+    if (known.count(p.pool.factors[i]) == 0) more.insert(p.pool.factors[i]);
+  }
+  if (more.empty()) return;
+  const auto added = static_cast<Eigen::Index>(more.size());
+  factors.insert(factors.begin() + p.scene, more.begin(), more.end());
+  Vector share(p.share.size() + added);
+  share << p.share.head(p.scene), Vector::Ones(added), p.share.tail(p.share.size() - p.scene);
+  p.share = std::move(share);
+  p.scene += added;
+  p.measured += added;
+  judge(p);
 }
 
 }  // namespace spectile::plan

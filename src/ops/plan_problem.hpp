@@ -56,9 +56,9 @@ Matrix predict(const SampleSet& set, const Numbers& numbers, Eigen::Index light)
 /// Reflectances every nanometre, limited to [0, 1]. Shapes: [kGrid][reflectances]. Errors: kBadArgument for
 /// one that is no number somewhere.
 Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances);
-/// Reflectances with steep edges at any place, as strong dyes have, which a measured set has only a few of.
-/// Deterministic. Shapes: [kGrid][..].
-Matrix dye_spectra();
+/// Reflectances with steep edges at any place from first_nm to last_nm, as strong dyes have, which a measured
+/// set has only a few of. Deterministic. Shapes: [kGrid][count].
+Matrix dye_spectra(Eigen::Index count, double first_nm, double last_nm);
 /// The leading directions of smooth deviations, each as large as it is likely. Shapes: [kGrid][..].
 Matrix smooth_spectra();
 
@@ -83,12 +83,17 @@ SampleSet judged_samples(Matrix table, int bounces, std::size_t most);
 
 /// All of a fit: samples and what they should come to.
 struct Problem {
-  SampleSet samples;                   ///< those of the smooth deviations last
-  Eigen::Index measured = 0;           ///< samples that are reflectances, products or dyes
+  /// Reflectances and products of them, dyes, smooth deviations, in this order.
+  SampleSet samples;
+  Eigen::Index scene = 0;              ///< samples that are reflectances or products
+  Eigen::Index measured = 0;           ///< those and dyes
+  std::vector<Matrix> integrals;       ///< a light: [kGrid][3]
   std::vector<Eigen::Vector3d> white;  ///< a light
   std::vector<Matrix> truth;           ///< a light: [3][N]
   std::vector<Matrix> squared_metric;  ///< a light: [N][6]: xx, xy, xz, yy, yz, zz
   Vector share;                        ///< [N]: how much a sample counts, squared
+  SampleSet pool;                      ///< products that may yet be taken; none for one bounce
+  std::vector<Matrix> pool_truth;      ///< a light: [3][products]
 };
 
 /// Pairs of XYZ's components in the order of `squared_metric`.
@@ -98,9 +103,13 @@ inline constexpr Eigen::Index kSecondOf[kPairs] = {0, 1, 2, 1, 2, 2};
 
 /// From reflectances (and their products) and integrals of lights.
 Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& integrals);
+/// Takes those products of the pool into the samples that come out worst under each light.
+void take_worst(Problem& problem, const Numbers& numbers);
 
-/// Wavelengths by exchange, the best of several starts; bands have half widths of `half_nm`.
-std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm, int starts);
+/// Wavelengths by exchange, the best of several starts; bands have half widths of `half_nm`, and dyes count
+/// `dyes` times what they do in the problem.
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm, double dyes,
+                                       int starts);
 
 /// Where a fit begins.
 struct Start {
@@ -108,8 +117,12 @@ struct Start {
   double half_nm = 0;  ///< half the widths of bands; 0 for points
 };
 
+/// The same for a quick fit from a start, again and again.
+void take_worst(Problem& problem, const Start& start);
+
 /// Moves wavelengths (and the ends of bands) and solves for weights. Of several starts, the one that comes
-/// nearest goes on; all are of points, or all of bands.
-Numbers fit(const Problem& problem, const std::vector<Start>& starts);
+/// nearest goes on; all are of points, or all of bands. The problem's samples grow by those products that
+/// come out worst.
+Numbers fit(Problem& problem, const std::vector<Start>& starts);
 
 }  // namespace spectile::plan

@@ -9,9 +9,15 @@
 namespace spectile::plan {
 namespace {
 
-/// Wavelengths worth looking at: beyond them the eye sees next to nothing.
-constexpr Eigen::Index kFirst = 390 - kFirstNm;
-constexpr Eigen::Index kCandidates = 720 - 390 + 1;
+/// Wavelengths worth looking at: beyond them the eye sees next to nothing. Every second nanometre: the fit
+/// moves them anyway, and half the candidates are a quarter of the sums.
+constexpr int kLowestNm = 390;
+constexpr int kStepNm = 2;
+constexpr Eigen::Index kCandidates = (720 - kLowestNm) / kStepNm + 1;
+
+double nm_of(Eigen::Index candidate) {
+  return kLowestNm + kStepNm * static_cast<double>(candidate);
+}
 
 /// White counts like so many samples.
 constexpr double kWhiteShare = 1e5;
@@ -22,7 +28,7 @@ constexpr double kRidge = 1e-9;
 class LightEquations {
  public:
   /// Shapes: samples [candidates][N].
-  LightEquations(const Problem& p, std::size_t light, const Matrix& samples) {
+  LightEquations(const Problem& p, std::size_t light, const Vector& share, const Matrix& samples) {
     normal_.resize(3 * kCandidates, 3 * kCandidates);
     const Eigen::Matrix3d root = metrics(p.white[light], p.white[light])[0];
     const Eigen::Matrix3d white = kWhiteShare * root.transpose() * root;
@@ -30,7 +36,7 @@ class LightEquations {
     for (Eigen::Index s = 0; s < kPairs; ++s) {
       const Eigen::Index a = kFirstOf[s];
       const Eigen::Index b = kSecondOf[s];
-      const Vector weight = p.squared_metric[light].col(s).cwiseProduct(p.share);
+      const Vector weight = p.squared_metric[light].col(s).cwiseProduct(share);
       Matrix block = samples * weight.asDiagonal() * samples.transpose();
       block.array() += white(a, b);
       for (Eigen::Index k = 0; k < kCandidates; ++k) {
@@ -122,14 +128,18 @@ double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen
 
 }  // namespace
 
-std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm,
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm, double dyes,
                                        int starts) {
   Vector candidates(kCandidates);
-  for (Eigen::Index c = 0; c < kCandidates; ++c) candidates[c] = kFirstNm + static_cast<double>(kFirst + c);
+  for (Eigen::Index c = 0; c < kCandidates; ++c) candidates[c] = nm_of(c);
   const Matrix samples =
       values_of(problem.samples, candidates, Vector::Constant(kCandidates, half_nm)).transpose();
+  Vector share = problem.share;
+  share.segment(problem.scene, problem.measured - problem.scene) *= dyes;
   std::vector<LightEquations> lights;
-  for (std::size_t l = 0; l < problem.white.size(); ++l) lights.emplace_back(problem, l, samples);
+  for (std::size_t l = 0; l < problem.white.size(); ++l) {
+    lights.emplace_back(problem, l, share, samples);
+  }
   std::vector<Eigen::Index> best;
   double most = -1;
   // The same starts every time.
@@ -153,7 +163,7 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
   }
   std::vector<double> out;
   out.reserve(best.size());
-  for (const Eigen::Index c : best) out.push_back(kFirstNm + static_cast<double>(kFirst + c));
+  for (const Eigen::Index c : best) out.push_back(nm_of(c));
   std::sort(out.begin(), out.end());
   return out;
 }

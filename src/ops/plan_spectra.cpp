@@ -27,21 +27,20 @@ double edge(double x) {
 
 }  // namespace
 
-Matrix dye_spectra() {
+Matrix dye_spectra(Eigen::Index count, double first_nm, double last_nm) {
   // Up to four edges, 8 to 30 nm wide, on a logistic scale, between a gloss of 1.5 % and 96.5 %: chosen to
   // look like measured saturated paints, of which a set of some two hundred has a handful.
-  constexpr Eigen::Index kCount = 200;
   constexpr double kMeanLogit = -1.2;
   constexpr double kLogitSpread = 1.2;
   constexpr double kStepSpread = 2.5;
   std::mt19937_64 random(11);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
-  Matrix out(kGrid, kCount);
-  for (Eigen::Index i = 0; i < kCount; ++i) {
+  Matrix out(kGrid, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
     const int edges = 1 + static_cast<int>(uniform(random) * 3.999);
     double base = kMeanLogit + kLogitSpread * normal(random);
     std::vector<std::array<double, 3>> steps;  // where, how wide, how high
     for (int k = 0; k < edges; ++k) {
-      const double where = 390 + uniform(random) * 340;
+      const double where = first_nm + uniform(random) * (last_nm - first_nm);
       const double wide = 8 + 22 * uniform(random);
       steps.push_back({where, wide, kStepSpread * normal(random)});
       base -= 0.5 * steps.back()[2];
