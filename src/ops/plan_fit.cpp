@@ -15,11 +15,9 @@ constexpr double kNarrowestNm = 2;
 /// Longest step of a wavelength or width.
 constexpr double kLongestNm = 6;
 
-/// Differences count to this power at last. With one light between their mean (1), which leaves a few large
-/// ones, and their squares, which spend precision on those few. With several the bands are no light's own:
-/// each light then has its few colours that come out worst, so these count more.
-constexpr double kOneLightPower = 1.5;
-constexpr double kSharedPower = 2.5;
+/// Differences count to this power at last: between their mean (1), which leaves a few large ones, and their
+/// squares, which spend precision on those few.
+constexpr double kPower = 1.5;
 
 /// Steps by squares and by the power itself before starts are compared, of those that are left then, and of
 /// each round of the best: lights are balanced before each, and the worst products taken before the first
@@ -47,7 +45,7 @@ class Fit {
   void by_squares() { descend(kSquareSteps); }
   /// Returns what is left: the same measure for all starts, if `unit` is.
   double by_power(double unit, int steps) {
-    equations_.set_power(power(), unit);
+    equations_.set_power(kPower, unit);
     return descend(steps);
   }
   void take(Problem& p) {
@@ -57,7 +55,7 @@ class Fit {
   Numbers finish(Problem& p, double unit) {
     for (int round = 0; round < kRounds; ++round) {
       if (round < kTakingRounds) take_worst(p, now_);
-      equations_.set_power(power(), unit);
+      equations_.set_power(kPower, unit);
       equations_.balance_lights(now_);
       descend(kLaterSteps);
     }
@@ -66,8 +64,6 @@ class Fit {
   }
 
  private:
-  double power() const { return equations_.layout().lights > 1 ? kSharedPower : kOneLightPower; }
-
   /// Neighbours that come too near share what is between them.
   void keep_apart(Numbers& n) const {
     const bool bands = equations_.layout().bands;

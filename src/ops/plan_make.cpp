@@ -76,15 +76,16 @@ double picometres(double nm) {
 }
 
 /// Where a fit begins: from exchanges over points, or over bands of several widths, with the dyes at several
-/// weights. Which start ends best only the fit can tell; these lead to different places most often. For more
-/// bounces, products that the first plans err most at join the problem before, so that starts mind them too.
+/// weights. Which start ends best only the fit can tell; these lead to different places most often. Where
+/// there are products, those that the first plans err most at join the problem before, so that starts mind
+/// them too.
 std::vector<plan::Start> starts_of(plan::Problem& problem, const PlannerOptions& o, std::size_t count) {
   // Shares of the visible range that a band begins with.
   const double share = 300 / static_cast<double>(count);
   const bool bands = o.sampling == PlanSampling::kBands;
   const auto halves =
       bands ? std::vector<double>{0.25 * share, 0.4 * share, 0.1 * share} : std::vector<double>{0};
-  for (int i = 0; o.bounces > 1 && i < kFirstPlans; ++i) {
+  for (int i = 0; problem.pool.count() > 0 && i < kFirstPlans; ++i) {
     plan::take_worst(problem,
                      {plan::choose_wavelengths(problem, count, halves[0], 1, kExchanges), halves[0]});
   }

@@ -16,15 +16,11 @@ namespace {
 
 /// What the dyes, and the smooth deviations, count beside the reflectances: enough that no spectrum comes out
 /// wild that no measurement has shown, little enough to leave the measured ones their precision. By
-/// cross-validation: a third of this, or three times it, has higher means or higher maxima. The bands of one
-/// light have precision to spare for more of them, and further out; those of many have not.
-struct Dyes {
-  Eigen::Index count;
-  double first_nm, last_nm;
-  double share;
-};
-constexpr Dyes kOneLightDyes = {400, 380, 780, 0.2};
-constexpr Dyes kSharedDyes = {200, 390, 730, 0.1};
+/// cross-validation over several deals of the folds.
+constexpr Eigen::Index kDyes = 400;
+constexpr double kFirstDyeNm = 380;
+constexpr double kLastDyeNm = 780;
+constexpr double kDyeShare = 0.2;
 constexpr double kSmoothShare = 1e-2;
 
 /// Products that a fit takes beside the reflectances themselves, for each number of bounces.
@@ -176,8 +172,7 @@ Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<
   Problem out;
   out.integrals = lights;
   for (const Matrix& light : lights) out.white.push_back(white_of(light));
-  const Dyes& dye = lights.size() > 1 ? kSharedDyes : kOneLightDyes;
-  const Matrix dyes = dye_spectra(dye.count, dye.first_nm, dye.last_nm);
+  const Matrix dyes = dye_spectra(kDyes, kFirstDyeNm, kLastDyeNm);
   const Matrix smooth = smooth_spectra();
   const Eigen::Index given = reflectances.cols();
   Matrix table(kGrid, given + dyes.cols() + smooth.cols());
@@ -185,6 +180,9 @@ Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<
   out.samples = sample_set(std::move(table));
   auto& factors = out.samples.factors;
   factors.resize(static_cast<std::size_t>(given));
+  // Products are reflectances too, dark and saturated ones. The bands of several lights, which are no light's
+  // own, err less with them in the fit even where light is reflected once; those of one light do not.
+  if (lights.size() > 1) bounces = std::max(bounces, 2);
   if (bounces > 1) {
     out.pool = sample_set(reflectances);
     out.pool.factors.clear();
@@ -199,7 +197,7 @@ Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<
   out.measured = out.scene + dyes.cols();
   out.share = Vector::Ones(out.samples.count());
   const auto whole = static_cast<double>(out.scene);
-  out.share.segment(out.scene, dyes.cols()).setConstant(dye.share * whole / static_cast<double>(dyes.cols()));
+  out.share.segment(out.scene, dyes.cols()).setConstant(kDyeShare * whole / static_cast<double>(dyes.cols()));
   out.share.tail(smooth.cols()).setConstant(kSmoothShare * whole / static_cast<double>(smooth.cols()));
   judge(out);
   return out;
