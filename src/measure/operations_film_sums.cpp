@@ -124,6 +124,9 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
   // Inside (7), to whole numbers (6), tile (4), pixel (4), address (2), sums of what may be no number (4),
   // weight and reasons (5), extremes (2).
   op.operations = 34;
+  op.binds =
+      "comparisons into masks and conversions to whole numbers, of which fewer start at once than of "
+      "products";
   op.fill = [](Random& random, float* v) {
     v[0] = uniform(random, 0.0F, static_cast<float>(kSide));
     v[1] = uniform(random, 0.0F, static_cast<float>(kSide));
