@@ -1,0 +1,71 @@
+// The tool's tiles and mip levels, in the files that it writes.
+#include <ImfTestFile.h>
+#include <ImfTiledInputFile.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/process.hpp"
+#include "tests/image/exr_files.hpp"
+
+namespace spectile {
+namespace {
+
+using test::run_tool;
+using testing::HasSubstr;
+
+class TilesTool : public testing::Test {
+ protected:
+  TilesTool() {
+    test::Picture picture = test::blank(100, 60);
+    test::add_rgb_noise(picture, Imf::HALF);
+    test::write_scanlines(in_, picture);
+  }
+
+  /// What the tool made, as OpenEXR sees it.
+  void expect_tiles(const std::vector<std::string>& words, unsigned width, unsigned height,
+                    int levels) const {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"-o", out_});
+    const auto outcome = run_tool(all);
+    ASSERT_EQ(outcome.exit, 0) << outcome;
+    ASSERT_TRUE(Imf::isTiledOpenExrFile(out_.c_str()));
+    Imf::TiledInputFile file(out_.c_str());
+    EXPECT_EQ(file.tileXSize(), width);
+    EXPECT_EQ(file.tileYSize(), height);
+    EXPECT_EQ(file.numLevels(), levels);
+    EXPECT_TRUE(file.isComplete());
+    for (int level = 0; level < levels; ++level) {
+      EXPECT_EQ(file.levelWidth(level), std::max(1, 100 >> level)) << level;
+      EXPECT_EQ(file.levelHeight(level), std::max(1, 60 >> level)) << level;
+    }
+  }
+
+  const test::TempFolder folder_;
+  const std::string in_ = folder_ / "in.exr";
+  const std::string out_ = folder_ / "out.exr";
+};
+
+TEST_F(TilesTool, OfTheSizeAskedFor) {
+  expect_tiles({"upsample", in_, "--tile", "48", "32"}, 48, 32, 1);
+}
+
+TEST_F(TilesTool, MipLevelsOfEveryConversion) {
+  expect_tiles({"upsample", in_, "--mipmap"}, 64, 64, 7);
+  std::filesystem::copy_file(out_, folder_ / "s.exr");
+  expect_tiles({"project", folder_ / "s.exr", "--mipmap", "--tile", "16", "16"}, 16, 16, 7);
+  expect_tiles({"relight", in_, "--illuminant", "A", "--mipmap"}, 64, 64, 7);
+  const auto stored = run_tool({"upsample", in_, "--store", "coefficients", "-o", folder_ / "c.exr"});
+  ASSERT_EQ(stored.exit, 0) << stored;
+  expect_tiles({"expand", folder_ / "c.exr", "--mipmap"}, 64, 64, 7);
+}
+
+TEST_F(TilesTool, CoefficientsThatCannotBeAveragedHaveNone) {
+  const auto outcome =
+      run_tool({"upsample", in_, "--method", "sigmoid", "--store", "coefficients", "--mipmap", "-o", out_});
+  EXPECT_EQ(outcome.exit, 2) << outcome;
+  EXPECT_THAT(outcome.err, HasSubstr("mip levels"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+}  // namespace
+}  // namespace spectile
