@@ -1,14 +1,13 @@
-// A film's samples on their way to pixels: placed, spread over bands, added up exactly, developed.
+// A film's exact sums: colours, wavelengths in their bands, moments and counts added to pixels.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 
 #include "src/base/errors.hpp"
-#include "src/measure/operation.hpp"
-#include "src/ops/film_pixel.hpp"
+#include "src/measure/film_operations.hpp"
+#include "src/ops/film_state.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -16,21 +15,15 @@ namespace {
 using kernels::FilmEntries;
 using kernels::KernelTable;
 using kernels::kFilmTilePixels;
-using kernels::kLanes;
-
-using SharedFilm = std::shared_ptr<const Film>;
 
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
-constexpr int kSide = 1024;
-constexpr std::size_t kWavelengths = 4;
-constexpr std::size_t kPixelLimbs = 8;
 /// Bands of the film that hits are added to: few, so that many pixels are in the caches.
 constexpr std::size_t kHitBands = 8;
 
 /// A film whose grids and tables the kernels are given; it is never fed.
 Result<SharedFilm> film_of(bool spectral) {
   FilmOptions o;
-  o.width = o.height = kSide;
+  o.width = o.height = kFilmSide;
   o.spectral = spectral;
   o.statistics = PixelStatistics::kVariance;
   auto made = Film::create(o);
@@ -112,177 +105,6 @@ Operation sums_operation(std::string name, std::size_t limbs) {
 /// A sum of two limbs on doubles: widened, rounded to both limbs' steps and taken from what is left.
 constexpr double kLimbPair = 2 * 9;
 
-void add_places(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op;
-  op.group = "film";
-  op.name = "film: place samples";
-  op.item = "sample";
-  op.in = {3, 1};
-  op.out = {1, 1, Element::kInt};
-  op.cache_only = true;
-  op.unit = "exact";
-  // Inside (7), to whole numbers (6), tile (4), pixel (4), address (2), sums of what may be no number (4),
-  // weight and reasons (5), extremes (2).
-  op.operations = 34;
-  op.binds =
-      "comparisons into masks and conversions to whole numbers, of which fewer start at once than of "
-      "products";
-  op.fill = [](Random& random, float* v) {
-    v[0] = uniform(random, 0.0F, static_cast<float>(kSide));
-    v[1] = uniform(random, 0.0F, static_cast<float>(kSide));
-    v[2] = uniform(random, 0.0F, 2.0F);
-  };
-  op.run = [film](const KernelTable& k, const Arrays& a) {
-    thread_local std::vector<std::int32_t> none;
-    none.resize(a.n());
-    std::int32_t tiles[2] = {std::numeric_limits<std::int32_t>::max(), -1};
-    std::uint64_t counts[kernels::kFilmReasons] = {};
-    k.film_place(a.out<std::int32_t>(), tiles, counts, FilmAccess::state(*film).kernel_window, a.in(0),
-                 a.in(1), a.in(2), none.data(), a.n());
-  };
-  op.error = [](const double* v, const double* out, double /*tiny*/) {
-    const auto any = [&](auto is) { return is(v[0]) || is(v[1]) || is(v[2]); };
-    const auto inside = [](double x) { return x >= 0 && x < kSide; };
-    double truth = 0;
-    if (any([](double x) { return std::isnan(x); })) {
-      truth = -kernels::kFilmNan;
-    } else if (any([](double x) { return std::isinf(x); })) {
-      truth = -kernels::kFilmInfinite;
-    } else if (v[2] < 0) {
-      truth = -kernels::kFilmNegative;
-    } else if (!inside(v[0]) || !inside(v[1])) {
-      truth = -kernels::kFilmOutside;
-    } else {
-      const double x = std::floor(v[0]);
-      const double y = std::floor(v[1]);
-      const double tile =
-          std::floor(y / kFilmTile) * (kSide / static_cast<double>(kFilmTile)) + std::floor(x / kFilmTile);
-      truth = tile * kFilmTilePixels + std::fmod(y, kFilmTile) * kFilmTile + std::fmod(x, kFilmTile);
-    }
-    return out[0] == truth ? 0.0 : kBeyond;
-  };
-  to.push_back(std::move(op));
-}
-
-void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
-  const std::size_t stride = (bands + 3) / 4 * 4;
-  Operation op;
-  op.group = "film";
-  op.name = "film: turn samples on bands";
-  op.item = "spectrum";
-  op.in = {bands + 1, 1};
-  op.out = {1, stride, Element::kQuad};
-  op.cache_only = true;
-  op.bound = 1;
-  // A sample's magnitude (1), the largest (1), times the weight (1), its share of turning four by four (2).
-  op.operations = 5 * static_cast<double>(bands);
-  op.binds = "quads of four where vectors are wider: turning four rows into columns";
-  op.fill = uniform_values(bands + 1, 0.01F, 1.0F);
-  op.run = [=](const KernelTable& k, const Arrays& a) {
-    thread_local std::vector<const float*> rows;
-    thread_local std::vector<std::int32_t> reasons;
-    rows.resize(bands);
-    reasons.resize(a.n());
-    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
-    const kernels::FilmLimits limits = {std::numeric_limits<float>::infinity(),
-                                        std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
-    k.film_band_quads(a.out(), stride, reasons.data(), limits, rows.data(), a.in(bands), bands, a.n());
-  };
-  op.error = judged_by(
-      stride,
-      [=](const double* v, double* truth, double* scale) {
-        for (std::size_t b = 0; b < bands; ++b) {
-          truth[b] = v[b] * v[bands];
-          scale[b] = std::abs(truth[b]);
-        }
-      },
-      1, true, op.bound);
-  to.push_back(std::move(op));
-}
-
-void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
-  // The bands of the film are 5 nm each from 400 nm on.
-  constexpr double kReference = 1.0 / 512;
-  Operation op;
-  op.group = "film";
-  op.name = "film: find the bands of 4 wavelengths";
-  op.item = "sample";
-  op.in = {3 * kWavelengths, 1};
-  op.out = {1, 3 * kWavelengths};
-  op.cache_only = true;
-  op.bound = 3;
-  // A wavelength: inside (5), the bucket (4), a step of the search (3), the band (3), the factor and value
-  // (3), what is beyond (6).
-  op.operations = kWavelengths * 24;
-  op.divisions = kWavelengths;
-  op.binds =
-      "gathers: of the bucket's edge, of the edge that is compared, of the band; and pairs stored one by one";
-  op.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
-      v[k] = uniform(random, 0.0F, 2.0F);
-      v[kWavelengths + k] = uniform(random, 360.0F, 830.0F);
-      v[2 * kWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
-    }
-  };
-  op.run = [film](const KernelTable& k, const Arrays& a) {
-    const FilmAccess::State& s = FilmAccess::state(*film);
-    kernels::FilmLimits limits = s.limits;
-    limits.range = limits.weight_range = std::numeric_limits<float>::max();
-    // A block at a time: bands and pairs lie one behind the other.
-    for (std::size_t block = 0; block < a.blocks; ++block) {
-      const float* radiance[kWavelengths];
-      const float* lambda[kWavelengths];
-      const float* density[kWavelengths];
-      for (std::size_t i = 0; i < kWavelengths; ++i) {
-        radiance[i] = a.in(i) + block * kLanes;
-        lambda[i] = a.in(kWavelengths + i) + block * kLanes;
-        density[i] = a.in(2 * kWavelengths + i) + block * kLanes;
-      }
-      std::int32_t reasons[kLanes] = {};
-      auto* const band = a.out<std::int32_t>() + block * 3 * kWavelengths * kLanes;
-      auto* const pairs = a.out() + (block * 3 + 1) * kWavelengths * kLanes;
-      k.film_hits(band, pairs, reasons, s.buckets, limits, radiance, lambda, density, nullptr,
-                  static_cast<float>(kReference), kWavelengths, kLanes);
-    }
-  };
-  op.read_block = [](const std::byte* block, std::size_t lane, double* values) {
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
-      std::int32_t band = 0;
-      std::memcpy(&band, block + (k * kLanes + lane) * sizeof(band), sizeof(band));
-      values[k] = static_cast<double>(band);
-      float pair[2];
-      std::memcpy(pair, block + (kWavelengths * kLanes + 2 * (k * kLanes + lane)) * sizeof(float),
-                  sizeof(pair));
-      values[kWavelengths + k] = static_cast<double>(pair[0]);
-      values[2 * kWavelengths + k] = static_cast<double>(pair[1]);
-    }
-  };
-  op.error = [](const double* in, const double* out, double tiny) {
-    double worst = kNotJudged;
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
-      const double radiance = in[k];
-      const double lambda = in[kWavelengths + k];
-      const double density = in[2 * kWavelengths + k];
-      const bool falls = density != 0 && lambda >= 400 && lambda < 700;
-      if (out[k] != (falls ? std::floor((lambda - 400) / 5) : -1.0)) return kBeyond;
-      worst = std::max(worst, 0.0);
-      // What is refused is not specified.
-      if (!falls || !std::isfinite(radiance) || !std::isfinite(density) || density < 0) continue;
-      const double weight = kReference / density;
-      // Beyond float's range, or so small that a rounding is not one in 2^24.
-      if (weight > 0x1p126 || weight < 0x1p-100 || std::abs(radiance * weight) > 0x1p126) continue;
-      const double off = std::abs(out[kWavelengths + k] - radiance * weight);
-      const double value_error =
-          std::max(0.0, off - 2 * tiny * std::max(1.0, weight)) / (0x1p-24 * std::abs(radiance * weight));
-      if (radiance != 0 && off > 0) worst = std::max(worst, value_error);
-      if (radiance == 0 && off != 0) return kBeyond;
-      worst = std::max(worst, std::abs(out[2 * kWavelengths + k] - weight) / (0x1p-24 * weight));
-    }
-    return worst;
-  };
-  to.push_back(std::move(op));
-}
-
 void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   Operation op = sums_operation("film: add colours", kPixelLimbs);
   op.operations = 4 * kLimbPair;
@@ -347,23 +169,23 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
 
 void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
   Operation op = sums_operation("film: add 4 wavelengths to their bands", 4 * kHitBands);
-  op.in = {kWavelengths, 2, Element::kQuad};
-  op.touched_bytes = kWavelengths * 4 * sizeof(std::int64_t);
+  op.in = {kFilmWavelengths, 2, Element::kQuad};
+  op.touched_bytes = kFilmWavelengths * 4 * sizeof(std::int64_t);
   // Two numbers a wavelength, times the factor.
-  op.operations = kWavelengths * 2 * (1 + kLimbPair);
+  op.operations = kFilmWavelengths * 2 * (1 + kLimbPair);
   op.unit = "of a step of the grid";
   op.bound = 0.5;
   op.binds = "two numbers at a time, as each wavelength goes to a band of its own";
   op.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < 2 * kWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
+    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
   };
   const auto band_of = [](std::size_t lane, std::size_t k) { return (lane + 2 * k) % kHitBands; };
   op.run = [=](const KernelTable& k, const Arrays& a) {
     // Rows of pairs are as far apart as the planes, and so are those of bands.
     const std::size_t apart = a.source_plane / (2 * sizeof(float));
     thread_local std::vector<std::int32_t> bands;
-    if (bands.size() != apart * kWavelengths) {
-      bands.resize(apart * kWavelengths);
+    if (bands.size() != apart * kFilmWavelengths) {
+      bands.resize(apart * kFilmWavelengths);
       for (std::size_t i = 0; i < bands.size(); ++i) {
         bands[i] = static_cast<std::int32_t>(band_of(i % apart, i / apart));
       }
@@ -371,18 +193,18 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
     over_tiles(a, 4 * kHitBands,
                [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
                  k.film_add_hits(tiles, 0, FilmAccess::state(*film).band_grid, entries, bands.data() + first,
-                                 a.in() + 2 * first, kWavelengths, apart, kHitBands);
+                                 a.in() + 2 * first, kFilmWavelengths, apart, kHitBands);
                });
   };
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
+    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
       for (std::size_t c = 0; c < 2; ++c) {
         if (!(std::abs(v[2 * k + c]) <= std::ldexp(coarse_step(*film, c == 1), kFilmCoarseBits)))
           return kNotJudged;
       }
     }
     double worst = 0;
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
+    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
       const double* const of_band = limbs + 4 * band_of(lane, k);
       for (std::size_t c = 0; c < 2; ++c) {
         const double step = coarse_step(*film, c == 1);
@@ -457,57 +279,6 @@ void add_counts(std::vector<Operation>& to) {
   to.push_back(std::move(op));
 }
 
-void add_development(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op;
-  op.group = "film";
-  op.name = "film: develop XYZ";
-  op.item = "pixel";
-  op.in = {1, kPixelLimbs, Element::kLimb};
-  op.out = {3, 1};
-  op.cache_only = true;  // tile by tile, under its lock
-  op.bound = 1.001;
-  // In double: four sums of two limbs, carried over (4), widened, scaled and added (5), three rounded.
-  op.operations = 2 * (4 * 9 + 3);
-  op.divisions = 2 * 3;
-  op.binds =
-      "one pixel after another, in scalar doubles: eight limbs carried over and widened, three quotients";
-  op.fill = [](Random& random, float* v) {
-    // Sixteen samples: the weight's coarse steps are 2^-15, the colours' are 2.
-    for (std::size_t c = 0; c < 3; ++c) v[c] = std::floor(uniform(random, 1.0F, 16.0F));
-    v[3] = 0x1p19F;
-    for (std::size_t c = 4; c < 8; ++c) v[c] = uniform(random, -0x1p43F, 0x1p43F);
-  };
-  op.run = [film](const KernelTable&, const Arrays& a) {
-    const FilmPixels pixels(FilmAccess::state(*film));
-    const std::size_t plane = a.target_plane / sizeof(float);
-    for (std::size_t first = 0; first < a.n(); first += kFilmTilePixels) {
-      const std::int64_t* const tile = a.in<std::int64_t>() + first * kPixelLimbs;
-      for (std::size_t i = 0; i < std::min(kFilmTilePixels, a.n() - first); ++i) {
-        pixels.develop(FilmLayer::kXyz, 0, tile, i, a.out() + first + i, plane);
-      }
-    }
-  };
-  op.error = judged_by(
-      3,
-      [film](const double* limbs, double* truth, double* scale) {
-        const auto sum = [&](std::size_t c, double step) {
-          // What a rest holds beyond half a coarse step belongs to the coarse limb.
-          const double over = std::nearbyint(std::ldexp(limbs[4 + c], -kFilmLimbBits));
-          const long double rest = static_cast<long double>(limbs[4 + c]) -
-                                   std::ldexp(static_cast<long double>(over), kFilmLimbBits);
-          const long double coarse = static_cast<long double>(limbs[c]) + over;
-          return (coarse + std::ldexp(rest, -kFilmLimbBits)) * step;
-        };
-        const long double weight = sum(3, coarse_step(*film, true));
-        for (std::size_t c = 0; c < 3; ++c) {
-          truth[c] = weight == 0 ? 0.0 : static_cast<double>(sum(c, coarse_step(*film, false)) / weight);
-          scale[c] = std::abs(truth[c]);
-        }
-      },
-      1, true, op.bound);
-  to.push_back(std::move(op));
-}
-
 }  // namespace
 
 Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands) {
@@ -515,9 +286,7 @@ Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands) {
   if (!film) return film.error();
   const auto spectral = film_of(true);
   if (!spectral) return spectral.error();
-  add_places(to, *film);
-  add_band_quads(to, bands.count());
-  add_hits(to, *spectral);
+  add_film_samples(to, *film, *spectral, bands);
   add_colors(to, *film);
   add_hit_sums(to, *spectral);
   add_moments(to, *film);
