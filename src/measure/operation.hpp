@@ -92,6 +92,8 @@ struct Operation {
   std::function<void(const Arrays&)> clear;
   /// Typical values of one lane, [planes][rows].
   std::function<void(Random&, float* values)> fill;
+  /// Makes of any numbers what the operation may be given; empty where that is all.
+  std::function<void(float* values)> admit;
   /// Error of a lane, [planes][rows] each: at most `bound`, or kNotJudged. `tiny`: what a result or an
   /// operand may be off by where it is below the least normal number.
   std::function<double(const double* in, const double* out, double tiny)> error;

@@ -83,6 +83,16 @@ void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
   }
 }
 
+/// Within what a film lets through to its sums.
+float held(float v, double most) {
+  const auto limit = static_cast<float>(most);
+  return std::isnan(v) ? 0.0F : std::clamp(v, -limit, limit);
+}
+
+double largest(const Film& film, bool weight) {
+  return std::ldexp(coarse_step(film, weight), kFilmCoarseBits);
+}
+
 Operation sums_operation(std::string name, std::size_t limbs) {
   Operation op;
   op.group = "film";
@@ -116,15 +126,10 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
           k.film_add(tiles, 0, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1, kPixelLimbs);
         });
   };
-  const auto within = [film](const double* v) {
-    // What a film refuses is not specified.
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (!(std::abs(v[c]) <= std::ldexp(coarse_step(*film, c == 3), kFilmCoarseBits))) return false;
-    }
-    return true;
+  op.admit = [film](float* v) {
+    for (std::size_t c = 0; c < 4; ++c) v[c] = held(v[c], largest(*film, c == 3));
   };
   op.error = [=](const double* v, const double* limbs, double tiny) {
-    if (!within(v)) return kNotJudged;
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double step = coarse_step(*film, c == 3);
@@ -151,7 +156,6 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   };
   op.error = nullptr;
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
-    if (!within(v)) return kNotJudged;
     const auto factor = static_cast<double>(filter_weights()[lane % kFilmTilePixels]);
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -196,13 +200,10 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
                                  a.in() + 2 * first, kFilmWavelengths, apart, kHitBands);
                });
   };
+  op.admit = [film](float* v) {
+    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = held(v[k], largest(*film, k % 2 == 1));
+  };
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
-    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
-      for (std::size_t c = 0; c < 2; ++c) {
-        if (!(std::abs(v[2 * k + c]) <= std::ldexp(coarse_step(*film, c == 1), kFilmCoarseBits)))
-          return kNotJudged;
-      }
-    }
     double worst = 0;
     for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
       const double* const of_band = limbs + 4 * band_of(lane, k);
@@ -230,16 +231,17 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
           k.film_add_moments(tiles, 0, FilmAccess::state(*film).moment_grid, entries, a.in() + 4 * first);
         });
   };
+  op.admit = [film](float* v) {
+    v[3] = std::abs(held(v[3], largest(*film, true)));
+    // The luminance before it is weighed is within the range too.
+    v[1] = held(v[1], static_cast<double>(v[3]) * largest(*film, false));
+  };
   op.error = [film](const double* v, const double* limbs, double tiny) {
     const FilmOptions& o = film->options();
     const long double y = v[1];
     const long double w = v[3];
     const long double square = w == 0 ? 0 : y * y / w;
     const int top = 2 * o.range + o.weight_range;
-    if (!(std::abs(y) <= std::ldexp(1.0L, o.range)) || !(w >= 0 && w <= std::ldexp(1.0L, o.weight_range)) ||
-        !(square <= std::ldexp(1.0L, top))) {
-      return kNotJudged;
-    }
     const auto sum = [](const double* limb, std::size_t count, const std::size_t* at, int exponent) {
       long double out = 0;
       for (std::size_t k = 0; k < count; ++k) {

@@ -175,6 +175,7 @@ void try_set(const Operation& op, const char* set, const std::function<void(Rand
   std::vector<float> values(op.in.values());
   for (std::size_t lane = 0; lane < at.lanes(); ++lane) {
     fill(random, values.data());
+    if (op.admit) op.admit(values.data());
     at.write(lane, values.data());
   }
   if (op.clear) op.clear(at.arrays(0, at.blocks(), false));
