@@ -180,8 +180,8 @@ Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<
   out.samples = sample_set(std::move(table));
   auto& factors = out.samples.factors;
   factors.resize(static_cast<std::size_t>(given));
-  // Products are reflectances too, dark and saturated ones. The bands of several lights, which are no light's
-  // own, err less with them in the fit even where light is reflected once; those of one light do not.
+  // Products are reflectances too, dark and saturated ones: the bands of several lights, which are no light's
+  // own, err less with them in the fit even where light is reflected once.
   if (lights.size() > 1) bounces = std::max(bounces, 2);
   if (bounces > 1) {
     out.pool = sample_set(reflectances);
