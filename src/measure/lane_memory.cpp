@@ -145,7 +145,6 @@ void judge(const Operation& operation, const LaneMemory& memory, std::size_t lan
     out.cases += lanes;
     if (!(error <= operation.bound)) out.beyond += lanes;
     out.worst = std::max(out.worst, error);
-    out.worst_input.assign(1, 0.0F);
     return;
   }
   std::vector<double> in(operation.in.values());
