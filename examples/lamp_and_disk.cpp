@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <spectile/irradiance.hpp>
-#include <spectile/radiometry.hpp>
+#include <spectile/radiometry/irradiance.hpp>
+#include <spectile/radiometry/radiometry.hpp>
 #include <spectile/spectile.hpp>
 #include <vector>
 

@@ -1,8 +1,8 @@
 // Fuzzes conversions of EXR files: each leaves a whole image that says how it was made, or nothing.
 #include <algorithm>
 #include <array>
-#include <spectile/average.hpp>
-#include <spectile/settings.hpp>
+#include <spectile/image/average.hpp>
+#include <spectile/image/settings.hpp>
 
 #include "fuzz/exr_size.hpp"
 #include "fuzz/support.hpp"

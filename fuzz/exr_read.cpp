@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <spectile/settings.hpp>
-#include <spectile/spectral_texture.hpp>
+#include <spectile/image/settings.hpp>
+#include <spectile/image/spectral_texture.hpp>
 
 #include "fuzz/exr_size.hpp"
 #include "fuzz/support.hpp"

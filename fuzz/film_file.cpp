@@ -1,6 +1,6 @@
 // Fuzzes partial films: what can be loaded is saved as a file that holds the very same film.
 #include <array>
-#include <spectile/film_file.hpp>
+#include <spectile/image/film_file.hpp>
 
 #include "fuzz/exr_size.hpp"
 #include "fuzz/support.hpp"

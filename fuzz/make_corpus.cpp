@@ -18,7 +18,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <spectile/film_file.hpp>
+#include <spectile/image/film_file.hpp>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <spectile/plan_file.hpp>
+#include <spectile/image/plan_file.hpp>
 
 #include "fuzz/support.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <spectile/named_spectra.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
 #include "fuzz/support.hpp"
 

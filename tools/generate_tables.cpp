@@ -3,11 +3,11 @@
 
 #include <cstdio>
 #include <fstream>
-#include <spectile/measured_spectrum.hpp>
+#include <spectile/spectra/measured_spectrum.hpp>
 #include <string>
 
-#include "src/ops/exact_basis.hpp"
-#include "src/ops/sigmoid_model.hpp"
+#include "src/upsampling/exact_basis.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <spectile/sampled_spectra.hpp>
+#include <spectile/lanes/sampled_spectra.hpp>
 #include <vector>
 
 #include "src/base/errors.hpp"

@@ -6,10 +6,10 @@
 
 #include <map>
 #include <set>
-#include <spectile/settings.hpp>
+#include <spectile/image/settings.hpp>
 
 #include "tests/cli/process.hpp"
-#include "tests/image/exr_files.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile {
 namespace {

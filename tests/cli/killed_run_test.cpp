@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "tests/cli/process.hpp"
-#include "tests/image/exr_files.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile {
 namespace {

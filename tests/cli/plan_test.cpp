@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <spectile/plan_file.hpp>
+#include <spectile/image/plan_file.hpp>
 
 #include "tests/cli/process.hpp"
-#include "tests/image/exr_files.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "tests/cli/process.hpp"
-#include "tests/image/exr_files.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile {
 namespace {

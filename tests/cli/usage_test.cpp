@@ -10,7 +10,7 @@
 #include <spectile/isa.hpp>
 
 #include "tests/cli/process.hpp"
-#include "tests/image/exr_files.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <span>
-#include <spectile/bands.hpp>
-#include <spectile/colorimetry.hpp>
-#include <spectile/upsample.hpp>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/color/colorimetry.hpp>
+#include <spectile/upsampling/upsample.hpp>
 #include <vector>
 
 namespace spectile::oracle {

@@ -1,0 +1,274 @@
+// Ways from spectral samples to a film.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <random>
+#include <spectile/film/film.hpp>
+#include <spectile/spectra/named_spectra.hpp>
+#include <spectile/lanes/wavelengths.hpp>
+
+#include "src/base/errors.hpp"
+#include "bench/methods/aos_baseline.hpp"
+#include "bench/methods/methods.hpp"
+#include "src/spectra/planned_bands.hpp"
+
+namespace spectile::measure {
+namespace {
+
+/// The film's width; a lane goes to the pixel of its number, so that samples come row by row.
+constexpr int kWidth = 64;
+constexpr int kHeight = static_cast<int>(kWayLanes) / kWidth;
+/// Samples of drawn wavelengths that a pixel is given.
+constexpr std::size_t kDrawsPerPixel = 256;
+constexpr std::size_t kWavelengths = 4;
+
+struct Positions {
+  std::vector<float> x, y, weight;
+  Positions() {
+    for (std::size_t i = 0; i < kWayLanes; ++i) {
+      x.push_back(static_cast<float>(i % kWidth) + 0.5F);
+      const std::size_t line = i / kWidth;
+      y.push_back(static_cast<float>(line) + 0.5F);
+      weight.push_back(1.0F);
+    }
+  }
+};
+
+/// A film and the samples that it is fed with.
+struct State {
+  Positions at;
+  std::vector<float> radiance;  ///< [band][lane]
+  std::optional<Film> film;
+  double white_y = 1;  ///< of a white reflector, which the results are relative to
+};
+
+Result<FilmDevelopment> developed(const Film& film) {
+  auto picture = FilmDevelopment::create(film, FilmLayer::kXyz);
+  if (!picture) return picture.error();
+  const auto updated = picture->update({1});
+  if (!updated) return updated.error();
+  return picture;
+}
+
+std::function<Xyz(std::size_t)> pixel_of(const std::shared_ptr<State>& s) {
+  return [s, picture = std::shared_ptr<FilmDevelopment>()](std::size_t lane) mutable {
+    if (picture == nullptr) {
+      auto made = developed(*s->film);
+      if (!made) return Xyz{};
+      picture = std::make_shared<FilmDevelopment>(*std::move(made));
+    }
+    const int x = static_cast<int>(lane) % kWidth;
+    const int y = static_cast<int>(lane) / kWidth;
+    Xyz out{};
+    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<double>(picture->at(k, x, y)) / s->white_y;
+    return out;
+  };
+}
+
+FilmOptions options_of() {
+  FilmOptions o;
+  o.width = kWidth;
+  o.height = kHeight;
+  o.filter = *PixelFilter::box();
+  return o;
+}
+
+/// Each lane's radiance in the bands: its reflectance's sample times the light's.
+Result<std::vector<float>> radiance_on(const WayScene& scene, const Bands& bands, double* white_y) {
+  const auto light = light_samples(scene.light->spectrum, bands);
+  if (!light) return light.error();
+  auto observer = Projector::emissive(bands);
+  if (!observer) return observer.error();
+  *white_y = 0;
+  for (std::size_t b = 0; b < bands.count(); ++b) *white_y += observer->weights()[b][1] * (*light)[b];
+  std::vector<float> out(bands.count() * kWayLanes);
+  for (std::size_t r = 0; r < scene.reflectances->size(); ++r) {
+    for (std::size_t b = 0; b < bands.count(); ++b) {
+      const double sample = sample_in((*scene.reflectances)[r].spectrum, bands, b);
+      const auto value = static_cast<float>(sample * (*light)[b]);
+      for (std::size_t lane = r; lane < kWayLanes; lane += scene.reflectances->size()) {
+        out[b * kWayLanes + lane] = value;
+      }
+    }
+  }
+  return out;
+}
+
+Result<void> add_bands(const WayScene& scene, const Bands& bands, const std::string& family,
+                       const std::string& name, std::vector<Way>& ways) {
+  auto s = std::make_shared<State>();
+  auto radiance = radiance_on(scene, bands, &s->white_y);
+  if (!radiance) return radiance.error();
+  s->radiance = *std::move(radiance);
+  FilmOptions o = options_of();
+  o.input = FilmInput::kBands;
+  o.bands = bands;
+  auto film = Film::create(o);
+  if (!film) return film.error();
+  s->film = *std::move(film);
+  Way way;
+  way.family = family;
+  way.name = name;
+  way.bands = static_cast<int>(bands.count());
+  way.bytes = bands.count() * sizeof(float);
+  way.run = [s, n = bands.count()] {
+    static_cast<void>(s->film->add(BandSamples{s->at.x, s->at.y, {}, {s->radiance.data(), n, kWayLanes}}));
+  };
+  way.result = pixel_of(s);
+  ways.push_back(std::move(way));
+  return {};
+}
+
+void add_draw(Film& film, const Positions& at, const SampledWavelengths& w, const WavelengthLanes& radiance) {
+  const auto rows = [](const WavelengthView& v) { return RowsView{v.data, v.count, v.stride}; };
+  static_cast<void>(film.add(WavelengthSamples{
+      at.x, at.y, {}, rows(radiance.view()), rows(w.lambda_nm.view()), rows(w.density.view())}));
+}
+
+Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
+  struct Drawn {
+    State film;
+    std::vector<SampledWavelengths> draws;
+    std::vector<WavelengthLanes> radiance;
+    std::size_t next = 0;
+  };
+  auto d = std::make_shared<Drawn>();
+  FilmOptions o = options_of();
+  auto film = Film::create(o);
+  if (!film) return film.error();
+  d->film.film = *std::move(film);
+  std::mt19937_64 random(scene.seed);
+  auto u = ScalarLanes::create(kWayLanes);
+  if (!u) return u.error();
+  // The light on the scale on which the film's white is 1.
+  const auto& light = scene.light->spectrum;
+  double luminance = 0;
+  {
+    const auto y_bar = named_spectrum("cie1931-y");
+    if (!y_bar) return y_bar.error();
+    double total = 0;
+    for (int nm = 360; nm <= 830; ++nm) {
+      luminance += (*y_bar)(nm)*light.at(nm);
+      total += (*y_bar)(nm);
+    }
+    luminance /= total;
+  }
+  for (std::size_t sample = 0; sample < kDrawsPerPixel; ++sample) {
+    // Stratified over a pixel's samples: each in its own part of the range.
+    for (std::size_t i = 0; i < kWayLanes; ++i) {
+      const double jitter = static_cast<double>(random() >> 11U) * 0x1p-53;
+      (*u)[i] =
+          static_cast<float>((static_cast<double>(sample) + jitter) / static_cast<double>(kDrawsPerPixel));
+    }
+    auto drawn = SampledWavelengths::create(kWayLanes, kWavelengths);
+    if (!drawn) return drawn.error();
+    SPECTILE_TRY(sample_wavelengths(WavelengthSampling::kVisible, u->view(), *drawn));
+    auto radiance = WavelengthLanes::create(kWayLanes, kWavelengths);
+    if (!radiance) return radiance.error();
+    for (std::size_t i = 0; i < kWayLanes; ++i) {
+      const auto& r = (*scene.reflectances)[i % scene.reflectances->size()].spectrum;
+      for (std::size_t k = 0; k < kWavelengths; ++k) {
+        const auto nm = static_cast<double>(drawn->lambda_nm.at(i, k));
+        radiance->at(i, k) = static_cast<float>(r.at(nm) * light.at(nm) / luminance);
+      }
+    }
+    d->draws.push_back(*std::move(drawn));
+    d->radiance.push_back(*std::move(radiance));
+  }
+  Way way;
+  way.family = "wavelengths";
+  way.name = fmt::format("{} drawn wavelengths, {} samples a pixel", kWavelengths, kDrawsPerPixel);
+  way.bytes = kDrawsPerPixel * 3 * kWavelengths * sizeof(float);
+  way.per_lane = static_cast<double>(kDrawsPerPixel);
+  way.run = [d] {
+    add_draw(*d->film.film, d->film.at, d->draws[d->next], d->radiance[d->next]);
+    d->next = (d->next + 1) % kDrawsPerPixel;
+  };
+  // Judged in a film of its own, which each sample has reached once.
+  way.result = [d, pixels = std::function<Xyz(std::size_t)>()](std::size_t lane) mutable {
+    if (!pixels) {
+      auto fresh = Film::create(options_of());
+      if (!fresh) return Xyz{};
+      d->film.film = *std::move(fresh);
+      for (std::size_t i = 0; i < kDrawsPerPixel; ++i) {
+        add_draw(*d->film.film, d->film.at, d->draws[i], d->radiance[i]);
+      }
+      pixels = pixel_of(std::shared_ptr<State>(d, &d->film));
+    }
+    return pixels(lane);
+  };
+  ways.push_back(std::move(way));
+  return {};
+}
+
+Result<void> add_textbook(const WayScene& scene, std::vector<Way>& ways) {
+  for (const TextbookWay& text : textbook().ways) {
+    auto bands = Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples));
+    if (!bands) return bands.error();
+    auto observer = Projector::emissive(*bands);
+    if (!observer) return observer.error();
+    struct Book {
+      TextbookScene scene{};
+      std::vector<float> radiance, weight;
+      std::vector<std::size_t> pixel;
+      std::vector<TextbookPixel> film;
+      double white_y = 1;
+    };
+    auto book = std::make_shared<Book>();
+    const auto rows = radiance_on(scene, *bands, &book->white_y);
+    if (!rows) return rows.error();
+    book->radiance.resize(kWayLanes * text.samples);
+    for (std::size_t i = 0; i < kWayLanes; ++i) {
+      for (std::size_t b = 0; b < text.samples; ++b)
+        book->radiance[i * text.samples + b] = (*rows)[b * kWayLanes + i];
+      book->pixel.push_back(i);
+    }
+    book->weight.assign(kWayLanes, 1.0F);
+    book->film.resize(kWayLanes);
+    for (std::size_t b = 0; b < text.samples; ++b) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        book->scene.matching[k][b] = static_cast<float>(observer->weights()[b][k]);
+      }
+    }
+    Way way;
+    way.family = "textbook";
+    way.name = fmt::format("textbook, {} even bands", text.samples);
+    way.bands = static_cast<int>(text.samples);
+    way.bytes = text.samples * sizeof(float);
+    way.run = [book, &text] {
+      text.add(book->scene, book->radiance.data(), book->weight.data(), book->pixel.data(), book->film.data(),
+               kWayLanes);
+    };
+    way.result = [book](std::size_t lane) {
+      const TextbookPixel& p = book->film[lane];
+      Xyz out{};
+      for (std::size_t k = 0; k < 3; ++k) out[k] = p.xyz[k] / p.weight / book->white_y;
+      return out;
+    };
+    ways.push_back(std::move(way));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Way>> film_ways(const WayScene& scene, bool quick) {
+  std::vector<Way> ways;
+  SPECTILE_TRY(add_textbook(scene, ways));
+  for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
+    auto bands = Bands::parse(text);
+    if (!bands) return bands.error();
+    const bool wide = bands->list().front().lower_nm < 400;
+    SPECTILE_TRY(add_bands(scene, *bands, "even bands",
+                           fmt::format("{} even bands{}", bands->count(), wide ? " to 780 nm" : ""), ways));
+  }
+  for (const Bands& bands : scene.planned) {
+    SPECTILE_TRY(
+        add_bands(scene, bands, "planned bands", fmt::format("{} planned bands", bands.count()), ways));
+  }
+  if (!quick) SPECTILE_TRY(add_wavelengths(scene, ways));
+  return ways;
+}
+
+}  // namespace spectile::measure

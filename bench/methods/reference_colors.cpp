@@ -1,0 +1,123 @@
+// The truth that ways of computing a colour are held to: sums at every nanometre in double.
+#include "bench/methods/reference_colors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <spectile/color/color_difference.hpp>
+#include <spectile/spectra/named_spectra.hpp>
+#include <variant>
+
+#include "src/base/errors.hpp"
+
+namespace spectile::measure {
+namespace {
+
+constexpr std::size_t kGrid = 471;  // 360 to 830 nm
+constexpr double kFirstNm = 360;
+
+/// At every nanometre; the sums below are those of CIE 015's tables.
+template <class F>
+std::vector<double> on_grid(const F& f) {
+  std::vector<double> out(kGrid);
+  for (std::size_t i = 0; i < kGrid; ++i) out[i] = f(kFirstNm + static_cast<double>(i));
+  return out;
+}
+
+/// Somewhere twice the mean over the 40 nm around it, where there is light to speak of.
+bool has_lines(const std::vector<double>& light) {
+  constexpr std::size_t kHalf = 20;
+  const double most = *std::max_element(light.begin(), light.end());
+  for (std::size_t i = kHalf; i + kHalf < light.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = i - kHalf; k <= i + kHalf; ++k) sum += light[k];
+    if (light[i] > 0.2 * most && light[i] > 2 * sum / (2 * kHalf + 1)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<TrueLight> true_light(const std::string& name) {
+  auto found = illuminant(name);
+  if (!found) return found.error();
+  const std::vector<double> power = on_grid([&](double nm) { return found->at(nm); });
+  TrueLight out{name, *found, {}, {}, has_lines(power)};
+  const char* const curves[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto curve = named_spectrum(curves[k]);
+    if (!curve) return curve.error();
+    out.weights[k] = on_grid([&](double nm) { return (*curve)(nm); });
+    for (std::size_t i = 0; i < kGrid; ++i) out.weights[k][i] *= power[i];
+  }
+  const double y = std::accumulate(out.weights[1].begin(), out.weights[1].end(), 0.0);
+  if (!(y > 0)) return make_error(ErrorCode::kBadArgument, "the light {} has no luminance", name);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (double& w : out.weights[k]) w /= y;
+    out.white[k] = std::accumulate(out.weights[k].begin(), out.weights[k].end(), 0.0);
+  }
+  return out;
+}
+
+Result<std::vector<Spectrum>> chart_reflectances() {
+  std::vector<Spectrum> out;
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    if (info.kind != "reflectance") continue;
+    auto found = named_spectrum(info.name);
+    if (!found) return found.error();
+    out.push_back(*std::move(found));
+  }
+  return out;
+}
+
+Result<std::vector<TrueReflectance>> true_reflectances(const std::vector<Spectrum>& spectra) {
+  std::vector<TrueReflectance> out;
+  for (const Spectrum& spectrum : spectra) {
+    std::vector<double> nm;
+    std::vector<double> values;
+    if (const auto* table = std::get_if<PiecewiseLinearSpectrum>(&spectrum.kind())) {
+      nm.assign(table->measured().wavelengths_nm().begin(), table->measured().wavelengths_nm().end());
+      values.assign(table->measured().values().begin(), table->measured().values().end());
+    } else {
+      for (std::size_t i = 0; i < kGrid; ++i) nm.push_back(kFirstNm + static_cast<double>(i));
+      values = on_grid([&](double at) { return spectrum(at); });
+    }
+    for (double& v : values) v = std::clamp(v, 0.0, 1.0);
+    auto measured = MeasuredSpectrum::from_samples(nm, values);
+    if (!measured) return measured.error();
+    TrueReflectance one{*std::move(measured), {}};
+    one.values = on_grid([&](double at) { return one.spectrum.at(at); });
+    out.push_back(std::move(one));
+  }
+  if (out.empty()) return make_error(ErrorCode::kBadArgument, "no reflectances to judge colours by");
+  return out;
+}
+
+Xyz true_xyz(const TrueLight& light, const std::vector<const TrueReflectance*>& reflectances) {
+  Xyz out{};
+  for (std::size_t i = 0; i < kGrid; ++i) {
+    double product = 1;
+    for (const TrueReflectance* r : reflectances) product *= r->values[i];
+    for (std::size_t k = 0; k < 3; ++k) out[k] += light.weights[k][i] * product;
+  }
+  return out;
+}
+
+void ErrorList::add(const Xyz& truth, const Xyz& found) {
+  values_.push_back(ciede2000(xyz_to_lab(truth, white_), xyz_to_lab(found, white_)));
+}
+
+ColorError ErrorList::summary() const {
+  ColorError out;
+  if (values_.empty()) return out;
+  std::vector<double> sorted = values_;
+  std::sort(sorted.begin(), sorted.end());
+  const auto n = static_cast<double>(sorted.size());
+  out.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / n;
+  out.maximum = sorted.back();
+  // The least that 95 of 100 do not exceed.
+  out.percentile95 = sorted[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
+  return out;
+}
+
+}  // namespace spectile::measure

@@ -1,0 +1,288 @@
+// Ways from an RGB texture to its colour under a light.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <spectile/spectra/named_spectra.hpp>
+#include <spectile/upsampling/relight.hpp>
+#include <spectile/upsampling/upsample.hpp>
+
+#include "src/base/errors.hpp"
+#include "bench/methods/aos_baseline.hpp"
+#include "bench/methods/methods.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+
+/// What all ways of a light start from: linear sRGB of the reflectances under D65, limited to the cube.
+struct Texture {
+  ColorLanes rgb;
+  std::vector<float> interleaved;
+};
+
+Result<std::shared_ptr<const Texture>> texture_of(const WayScene& scene) {
+  auto d65 = true_light("D65");
+  if (!d65) return d65.error();
+  auto rgb = ColorLanes::create(kWayLanes);
+  if (!rgb) return rgb.error();
+  auto out = std::make_shared<Texture>();
+  out->interleaved.resize(3 * kWayLanes);
+  // White as the light itself has it, so that grey is grey.
+  const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65->white));
+  for (std::size_t i = 0; i < kWayLanes; ++i) {
+    const auto& r = (*scene.reflectances)[i % scene.reflectances->size()];
+    const Xyz color = times(matrix, true_xyz(*d65, {&r}));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<float>(std::clamp(color[k], 0.0, 1.0));
+      rgb->at(i, k) = v;
+      out->interleaved[3 * i + k] = v;
+    }
+  }
+  out->rgb = *std::move(rgb);
+  return std::shared_ptr<const Texture>(std::move(out));
+}
+
+/// What a way works with.
+struct State {
+  std::shared_ptr<const Texture> texture;
+  std::shared_ptr<const Upsampler> upsampler;
+  std::optional<Projector> projector;
+  std::optional<Relighter> relighter;
+  FloatBuffer spectra, coefficients;
+  std::vector<std::uint16_t> halves;
+  std::vector<std::uint64_t> unsolved;
+  ColorLanes xyz;
+};
+
+struct Maker {
+  const WayScene& scene;
+  std::shared_ptr<const Texture> texture;
+  std::vector<Way>& ways;
+
+  Result<std::shared_ptr<State>> state_for(const std::shared_ptr<const Upsampler>& upsampler) const {
+    auto s = std::make_shared<State>();
+    s->texture = texture;
+    s->upsampler = upsampler;
+    auto projector = Projector::reflective(upsampler->bands(), scene.light->spectrum);
+    if (!projector) return projector.error();
+    s->projector = *std::move(projector);
+    auto spectra = FloatBuffer::create(kWayLanes * upsampler->bands().count());
+    if (!spectra) return spectra.error();
+    s->spectra = *std::move(spectra);
+    auto coefficients = FloatBuffer::create(3 * kWayLanes);
+    if (!coefficients) return coefficients.error();
+    s->coefficients = *std::move(coefficients);
+    s->halves.resize(s->spectra.size());
+    s->unsolved.resize(blocks_for(kWayLanes));
+    auto xyz = ColorLanes::create(kWayLanes);
+    if (!xyz) return xyz.error();
+    s->xyz = *std::move(xyz);
+    return s;
+  }
+
+  void add(const std::shared_ptr<State>& s, std::string family, std::string name, std::uint64_t bytes,
+           std::function<void(const KernelTable&, State&)> work) {
+    Way way;
+    way.family = std::move(family);
+    way.name = std::move(name);
+    way.bands = static_cast<int>(s->upsampler->bands().count());
+    way.bytes = bytes;
+    way.run = [s, work = std::move(work), table = scene.table] { work(*table, *s); };
+    way.result = [s](std::size_t lane) {
+      return Xyz{static_cast<double>(s->xyz.at(lane, 0)), static_cast<double>(s->xyz.at(lane, 1)),
+                 static_cast<double>(s->xyz.at(lane, 2))};
+    };
+    ways.push_back(std::move(way));
+  }
+};
+
+const float* const* rgb_of(const State& s, const float* (&to)[3]) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] = s.texture->rgb.view().c[k];
+  return to;
+}
+
+void sum_up(const KernelTable& k, State& s) {
+  const ColorSpan xyz = s.xyz.span();
+  k.project(xyz.c[0], xyz.c[1], xyz.c[2], s.spectra.data(), s.projector->float_weights(),
+            s.upsampler->bands().count(), blocks_for(kWayLanes));
+}
+
+void through_halves(const KernelTable& k, State& s) {
+  k.float_to_half(s.halves.data(), s.spectra.data(), s.spectra.size());
+  k.half_to_float(s.spectra.data(), s.halves.data(), s.spectra.size());
+}
+
+void mix(const KernelTable& k, State& s) {
+  const float* rgb[3];
+  k.smits_blocks(s.spectra.data(), rgb_of(s, rgb), s.upsampler->table(), s.upsampler->lowest(),
+                 s.upsampler->bands().count(), blocks_for(kWayLanes), false);
+}
+
+void solve(const KernelTable& k, State& s) {
+  const float* rgb[3];
+  float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kWayLanes,
+                       s.coefficients.data() + 2 * kWayLanes};
+  k.sigmoid_solve(c, rgb_of(s, rgb), s.upsampler->sigmoid()->table, s.unsolved.data(), kWayLanes);
+}
+
+const float* const* coefficients_of(State& s, const float* (&to)[3]) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] = s.coefficients.data() + k * kWayLanes;
+  return to;
+}
+
+void evaluate(const KernelTable& k, State& s) {
+  const float* c[3];
+  k.sigmoid_blocks(s.spectra.data(), coefficients_of(s, c), nullptr, s.upsampler->sigmoid()->table.rows,
+                   false, s.upsampler->bands().count(), blocks_for(kWayLanes), false);
+}
+
+void sum_sigmoid(const KernelTable& k, State& s) {
+  const float* c[3];
+  const ColorSpan xyz = s.xyz.span();
+  k.sigmoid_project(xyz.c, coefficients_of(s, c), nullptr, s.upsampler->sigmoid()->table.rows, false,
+                    s.projector->float_weights(), s.upsampler->bands().count(), kWayLanes);
+}
+
+/// A method on some bands, in every way that there is.
+Result<void> add_method(Maker& maker, Method method, const Bands& bands, const std::string& label) {
+  auto made = Upsampler::create(method, Quantity::kReflectance, bands);
+  // Bands on which a method cannot be exact are no way.
+  if (!made) return {};
+  const auto upsampler = std::make_shared<const Upsampler>(*std::move(made));
+  auto state = maker.state_for(upsampler);
+  if (!state) return state.error();
+  const std::shared_ptr<State> s = *state;
+  const std::string family(to_string(method));
+  const auto samples = static_cast<std::uint64_t>(bands.count());
+  const auto name = [&](const char* how) { return fmt::format("{}, {}, {}", family, label, how); };
+  if (method == Method::kSigmoid) {
+    maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, State& t) {
+      solve(k, t);
+      evaluate(k, t);
+      sum_up(k, t);
+    });
+    maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
+      solve(k, t);
+      sum_sigmoid(k, t);
+    });
+    solve(*maker.scene.table, *s);
+    maker.add(s, family, name("coefficients stored"), 12, sum_sigmoid);
+    return {};
+  }
+  maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, State& t) {
+    mix(k, t);
+    sum_up(k, t);
+  });
+  maker.add(s, family, name("spectra in half"), 2 * samples, [](const KernelTable& k, State& t) {
+    mix(k, t);
+    through_halves(k, t);
+    sum_up(k, t);
+  });
+  constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  auto relighter = Relighter::create(*s->upsampler, *s->projector, kIdentity);
+  if (!relighter) return relighter.error();
+  s->relighter = *std::move(relighter);
+  maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
+    const float* rgb[3];
+    k.smits_fold(t.xyz.span().c, rgb_of(t, rgb), t.relighter->table().data(), kWayLanes);
+  });
+  return {};
+}
+
+/// Three numbers a colour and a light of three numbers.
+Result<void> add_rgb(Maker& maker) {
+  auto upsampler = Upsampler::create(Method::kSmits, Quantity::kReflectance, Bands());
+  if (!upsampler) return upsampler.error();
+  auto state = maker.state_for(std::make_shared<const Upsampler>(*std::move(upsampler)));
+  if (!state) return state.error();
+  // The light's RGB, and back to XYZ; D65 itself is 1, 1, 1.
+  auto d65 = true_light("D65");
+  if (!d65) return d65.error();
+  const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65->white);
+  const Xyz light = times(inverse(to_xyz), maker.scene.light->white);
+  auto folded = std::make_shared<std::vector<float>>();
+  for (std::size_t i = 0; i < 9; ++i) folded->push_back(static_cast<float>(to_xyz[i] * light[i % 3]));
+  maker.add(*state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
+    const float* rgb[3];
+    k.transform3(t.xyz.span().c, rgb_of(t, rgb), folded->data(), kWayLanes);
+  });
+  maker.ways.back().bands = 0;
+  return {};
+}
+
+Result<void> add_textbook(Maker& maker) {
+  for (const TextbookWay& text : textbook().ways) {
+    auto bands = Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples));
+    if (!bands) return bands.error();
+    auto upsampler = Upsampler::create(Method::kSmits, Quantity::kReflectance, *bands);
+    if (!upsampler) return upsampler.error();
+    auto observer = Projector::emissive(*bands);
+    if (!observer) return observer.error();
+    struct Book {
+      TextbookScene scene{};
+      std::vector<float> xyz;
+      std::shared_ptr<const Texture> texture;
+    };
+    auto book = std::make_shared<Book>();
+    book->texture = maker.texture;
+    book->xyz.resize(3 * kWayLanes);
+    const std::vector<float> light = maker.scene.light->spectrum.average_over(*bands);
+    double y = 0;
+    for (std::size_t i = 0; i < text.samples; ++i)
+      y += observer->weights()[i][1] * static_cast<double>(light[i]);
+    for (std::size_t i = 0; i < text.samples; ++i) {
+      for (std::size_t k = 0; k < 7; ++k)
+        book->scene.basis[k][i] = static_cast<float>(upsampler->basis()[i][k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        book->scene.matching[k][i] = static_cast<float>(observer->weights()[i][k]);
+      }
+      book->scene.light[i] = static_cast<float>(static_cast<double>(light[i]) / y);
+    }
+    Way way;
+    way.family = "textbook";
+    way.name = fmt::format("textbook, smits, {} even bands", text.samples);
+    way.bands = static_cast<int>(text.samples);
+    way.run = [book, &text] {
+      text.relight(book->scene, book->texture->interleaved.data(), book->xyz.data(), kWayLanes);
+    };
+    way.result = [book](std::size_t lane) {
+      return Xyz{static_cast<double>(book->xyz[3 * lane]), static_cast<double>(book->xyz[3 * lane + 1]),
+                 static_cast<double>(book->xyz[3 * lane + 2])};
+    };
+    maker.ways.push_back(std::move(way));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Way>> rgb_ways(const WayScene& scene, bool quick) {
+  auto texture = texture_of(scene);
+  if (!texture) return texture.error();
+  std::vector<Way> ways;
+  Maker maker{scene, *texture, ways};
+  SPECTILE_TRY(add_textbook(maker));
+  SPECTILE_TRY(add_rgb(maker));
+  std::vector<std::pair<Bands, std::string>> lists;
+  for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
+    if (quick && std::string_view(text) != "400:700:5") continue;
+    auto bands = Bands::parse(text);
+    if (!bands) return bands.error();
+    lists.emplace_back(*bands, fmt::format("{} even bands{}", bands->count(),
+                                           bands->list().front().lower_nm < 400 ? " to 780 nm" : ""));
+  }
+  for (const Bands& bands : scene.planned) {
+    lists.emplace_back(bands, fmt::format("{} planned bands", bands.count()));
+  }
+  for (const auto& [bands, label] : lists) {
+    for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
+      SPECTILE_TRY(add_method(maker, method, bands, label));
+    }
+  }
+  return ways;
+}
+
+}  // namespace spectile::measure

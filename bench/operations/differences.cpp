@@ -1,0 +1,104 @@
+// Colour differences, and rows of colours looked over.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <spectile/color/color_difference.hpp>
+
+#include "bench/operations/operation.hpp"
+#include "src/reference/oracle/oracle.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+using kernels::RgbScan;
+
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+/// D65. Source: IEC 61966-2-1:1999, chromaticity (0.3127, 0.3290).
+constexpr std::array<double, 3> kWhite = {0.3127 / 0.3290, 1.0, (1.0 - 0.3127 - 0.3290) / 0.3290};
+
+void add_ciede2000(std::vector<Operation>& to) {
+  Operation op;
+  op.group = "colorimetry";
+  op.name = "CIEDE2000";
+  op.item = "pair";
+  op.in = {6, 1};
+  op.out = {1, 1};
+  op.unit = "u of it and 1e-12 of the coordinates";
+  op.bound = 1;
+  // Six cube roots, eight square roots, two arc tangents, seven sines and cosines, three exponentials: in
+  // double, some twenty operations each, and a hundred others.
+  op.operations = 2 * (26 * 20 + 100);
+  op.binds = "the C library's cube roots, arc tangents, sines and cosines, one number at a time";
+  op.fill = uniform_values(6, 0.0F, 1.0F);
+  op.run = [](const KernelTable&, const Arrays& a) {
+    const ColorView first = {{a.in(0), a.in(1), a.in(2)}, a.n()};
+    const ColorView second = {{a.in(3), a.in(4), a.in(5)}, a.n()};
+    // The shapes are right and one thread needs no memory: nothing can fail.
+    static_cast<void>(ciede2000(first, second, kWhite, {a.out(), a.n()}, {1}));
+  };
+  op.error = [](const double* in, const double* out, double tiny) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      // Of infinities nothing is said here.
+      if (std::isinf(in[k])) return kNotJudged;
+      if (std::isnan(in[k])) return std::isnan(out[0]) ? 0 : kBeyond;
+    }
+    const auto truth = oracle::ciede2000({in[0], in[1], in[2]}, {in[3], in[4], in[5]}, kWhite);
+    if (truth.undecided) return kNotJudged;
+    if (!(truth.value < static_cast<double>(std::numeric_limits<float>::max()))) return kNotJudged;
+    const double allowed = 0x1p-24 * truth.value + 1e-12 * std::max(1.0, truth.size) + tiny;
+    return std::abs(out[0] - truth.value) / allowed;
+  };
+  to.push_back(std::move(op));
+}
+
+void add_scan(std::vector<Operation>& to) {
+  Operation op;
+  op.group = "conversion";
+  op.name = "count what is outside";
+  op.item = "colour";
+  op.in = {3, 1};
+  // A row of an image is counted at once: 32 bytes, whatever its length.
+  op.out = {1, 1, Element::kMask};
+  op.touched_bytes = 0;
+  op.unit = "exact";
+  // A component: compare with 0, with 1, find out whether it is finite (2), the maximum, join them (3).
+  op.operations = 3 * 8 + 3;
+  op.binds = "counting the bits of three masks a vector, and adding them up in memory";
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  op.cache_only = true;
+  op.run = [](const KernelTable& k, const Arrays& a) {
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    RgbScan scan;
+    k.scan_rgb(&scan, rgb, a.n());
+    if (a.blocks * sizeof(std::uint64_t) >= sizeof(scan)) *reinterpret_cast<RgbScan*>(a.target) = scan;
+  };
+  op.error_of_run = [](const Arrays& a, bool flushed) {
+    if (a.blocks * sizeof(std::uint64_t) < sizeof(RgbScan)) return kNotJudged;
+    const RgbScan& found = *reinterpret_cast<const RgbScan*>(a.target);
+    RgbScan truth;
+    for (std::size_t i = 0; i < a.n(); ++i) {
+      float v[3] = {a.in(0)[i], a.in(1)[i], a.in(2)[i]};
+      for (float& x : v) x = flushed && std::abs(x) < std::numeric_limits<float>::min() ? 0.0F : x;
+      const auto any = [&](auto is) { return is(v[0]) || is(v[1]) || is(v[2]) ? 1U : 0U; };
+      truth.nonfinite += any([](float x) { return !std::isfinite(x); });
+      truth.negative += any([](float x) { return x < 0; });
+      truth.over_one += any([](float x) { return x > 1; });
+      for (const float x : v) truth.maximum = x > truth.maximum ? x : truth.maximum;
+    }
+    const bool same = found.nonfinite == truth.nonfinite && found.negative == truth.negative &&
+                      found.over_one == truth.over_one && found.maximum == truth.maximum;
+    return same ? 0.0 : kBeyond;
+  };
+  to.push_back(std::move(op));
+}
+
+}  // namespace
+
+void add_differences(std::vector<Operation>& to) {
+  add_ciede2000(to);
+  add_scan(to);
+}
+
+}  // namespace spectile::measure

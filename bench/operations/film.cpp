@@ -1,0 +1,193 @@
+// Film samples to what they contribute to their pixels.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <spectile/color/colorimetry.hpp>
+#include <spectile/spectra/named_spectra.hpp>
+
+#include "src/base/errors.hpp"
+#include "bench/operations/operation.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+
+constexpr std::size_t kWavelengths = 4;
+constexpr std::int32_t kIntervals = 470;  // 360 to 830 nm
+constexpr double kFirstNm = 360;
+/// Far above what is tried: what a film refuses is another matter.
+constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+
+/// Rows of three curves and their differences, as the kernels want them.
+using CurveRows = std::shared_ptr<const std::vector<float>>;
+
+Result<CurveRows> curve_rows() {
+  // One row more behind the last, and room to begin at a multiple of 32 bytes.
+  auto rows = std::make_shared<std::vector<float>>((static_cast<std::size_t>(kIntervals) + 2) * 8 + 8, 0.0F);
+  const char* const names[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto curve = named_spectrum(names[c]);
+    if (!curve) return curve.error();
+    for (std::int32_t i = 0; i <= kIntervals; ++i) {
+      const double nm = kFirstNm + i;
+      const auto value = static_cast<float>((*curve)(nm));
+      const float next = i < kIntervals ? static_cast<float>((*curve)(nm + 1)) : value;
+      (*rows)[static_cast<std::size_t>(i) * 8 + c] = value;
+      (*rows)[static_cast<std::size_t>(i) * 8 + 4 + c] = next - value;
+    }
+  }
+  return CurveRows(std::move(rows));
+}
+
+/// The rows at a multiple of 32 bytes: a copy of its own for each thread.
+const float* aligned_rows(const std::vector<float>& rows) {
+  struct alignas(32) Row {
+    float values[8];
+  };
+  thread_local std::vector<Row> copy;
+  if (copy.empty()) {
+    copy.resize(static_cast<std::size_t>(kIntervals) + 2);
+    for (std::size_t i = 0; i < copy.size(); ++i) std::copy_n(rows.data() + 8 * i, 8, copy[i].values);
+  }
+  return copy.data()->values;
+}
+
+std::int32_t* reasons_for(std::size_t n) {
+  thread_local std::vector<std::int32_t> reasons;
+  reasons.resize(n);
+  return reasons.data();
+}
+
+Operation film_operation(std::string name, std::size_t planes) {
+  Operation op;
+  op.group = "film";
+  op.name = std::move(name);
+  op.in = {planes, 1};
+  op.out = {1, 4, Element::kQuad};
+  op.cache_only = true;  // a film weighs some thousand samples at once
+  return op;
+}
+
+void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
+  Operation op = film_operation("weigh film samples of 4 wavelengths", 3 * kWavelengths);
+  op.item = "sample";
+  // For vectors of wavelengths, looking at faults and finding the row; for quads of colours, two products and
+  // sums a wavelength, the factor, limits.
+  op.operations = kWavelengths * 14 + 4 * (4 * kWavelengths + 5);
+  op.divisions = kWavelengths;
+  op.binds = "a row of the curves for each sample and wavelength: two loads and a shuffle of their own";
+  op.bound = kWavelengths + 8;
+  op.fill = [](Random& random, float* v) {
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
+      v[k] = uniform(random, 0.0F, 2.0F);
+      v[kWavelengths + k] = uniform(random, 360.0F, 830.0F);
+      v[2 * kWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
+    }
+  };
+  op.run = [rows](const KernelTable& k, const Arrays& a) {
+    const float* radiance[kWavelengths];
+    const float* lambda[kWavelengths];
+    const float* density[kWavelengths];
+    for (std::size_t i = 0; i < kWavelengths; ++i) {
+      radiance[i] = a.in(i);
+      lambda[i] = a.in(kWavelengths + i);
+      density[i] = a.in(2 * kWavelengths + i);
+    }
+    kernels::FilmCurves curves;
+    curves.rows = aligned_rows(*rows);
+    curves.first_nm = static_cast<float>(kFirstNm);
+    curves.intervals = kIntervals;
+    curves.largest = 2;
+    const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
+                                        std::numeric_limits<float>::max()};
+    k.film_weigh_wavelengths(a.out(), false, reasons_for(a.n()), curves, limits, radiance, lambda, density,
+                             nullptr, 1.0F / kWavelengths, kWavelengths, a.n());
+  };
+  const auto judge = judged_by(
+      3,
+      [rows](const double* v, double* truth, double* scale) {
+        for (std::size_t i = 0; i < kWavelengths; ++i) {
+          const double density = v[2 * kWavelengths + i];
+          const double t = v[kWavelengths + i] - kFirstNm;
+          if (density == 0 || !(t >= 0 && t <= kIntervals)) continue;
+          const double ratio = v[i] / density;
+          const auto row = static_cast<std::size_t>(t);
+          const double part = t - static_cast<double>(row);
+          for (std::size_t c = 0; c < 3; ++c) {
+            const auto value = static_cast<double>((*rows)[8 * row + c]);
+            const auto step = static_cast<double>((*rows)[8 * row + 4 + c]);
+            truth[c] += (value + part * step) * ratio / kWavelengths;
+            scale[c] += (std::abs(value) + std::abs(part * step)) * std::abs(ratio) / kWavelengths;
+          }
+        }
+      },
+      2 * kWavelengths, false, op.bound);
+  op.error = [judge](const double* in, const double* out, double tiny) {
+    // What a film refuses is not specified: numbers that are not finite, negative densities, quotients beyond
+    // float's range.
+    for (std::size_t i = 0; i < kWavelengths; ++i) {
+      const double density = in[2 * kWavelengths + i];
+      const bool good = std::isfinite(in[i]) && std::isfinite(in[kWavelengths + i]) && std::isfinite(density);
+      if (!good || density < 0) return kNotJudged;
+      if (density != 0 && std::abs(in[i] / density) > 0x1p120) return kNotJudged;
+      // A density flushed to 0, or a quotient below the least normal number, is not what the bound is about.
+      if (density != 0 && (density < 0x1p-126 || std::abs(in[i] / density) < 0x1p-100)) return kNotJudged;
+    }
+    return judge(in, out, tiny);
+  };
+  to.push_back(std::move(op));
+}
+
+void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
+  const std::size_t bands = projector.bands().count();
+  const auto count = static_cast<double>(bands);
+  Operation op = film_operation("weigh film samples on bands", bands);
+  op.item = "spectrum";
+  op.operations = 4 * (2 * count + count / 8) + 8;
+  op.bound = count / 8 + 12;
+  op.binds = "a sample of each band comes alone, to be spread over a quad";
+  op.fill = uniform_values(bands, 0.01F, 1.0F);
+  auto weights =
+      std::make_shared<std::vector<float>>(projector.float_weights(), projector.float_weights() + 4 * bands);
+  auto exact = std::make_shared<std::vector<double>>();
+  for (const auto& w : projector.weights()) exact->insert(exact->end(), w.begin(), w.end());
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    thread_local std::vector<const float*> rows;
+    rows.resize(bands);
+    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
+    const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
+                                        std::numeric_limits<float>::max()};
+    k.film_weigh_bands(a.out(), false, reasons_for(a.n()), weights->data(), limits, rows.data(), nullptr,
+                       bands, a.n());
+  };
+  const auto judge = judged_by(
+      3,
+      [=](const double* v, double* truth, double* scale) {
+        for (std::size_t i = 0; i < 3 * bands; ++i) {
+          const double term = (*exact)[i] * v[i / 3];
+          truth[i % 3] += term;
+          scale[i % 3] += std::abs(term);
+        }
+      },
+      count, false, op.bound);
+  op.error = [=](const double* in, const double* out, double tiny) {
+    if (!std::all_of(in, in + bands, [](double v) { return std::isfinite(v); })) return kNotJudged;
+    return judge(in, out, tiny);
+  };
+  to.push_back(std::move(op));
+}
+
+}  // namespace
+
+Result<void> add_film(std::vector<Operation>& to, const Bands& bands) {
+  const auto rows = curve_rows();
+  if (!rows) return rows.error();
+  add_wavelength_samples(to, *rows);
+  // Bands that no observer sees make no film.
+  if (const auto projector = Projector::emissive(bands)) add_band_samples(to, *projector);
+  return {};
+}
+
+}  // namespace spectile::measure

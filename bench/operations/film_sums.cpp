@@ -1,0 +1,300 @@
+// A film's exact sums: colours, wavelengths in their bands, moments and counts added to pixels.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "src/base/errors.hpp"
+#include "bench/operations/films.hpp"
+#include "src/film/state.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::FilmEntries;
+using kernels::KernelTable;
+using kernels::kFilmTilePixels;
+
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+/// Bands of the film that hits are added to: few, so that many pixels are in the caches.
+constexpr std::size_t kHitBands = 8;
+
+/// A film whose grids and tables the kernels are given; it is never fed.
+Result<SharedFilm> film_of(bool spectral) {
+  FilmOptions o;
+  o.width = o.height = kFilmSide;
+  o.spectral = spectral;
+  o.statistics = PixelStatistics::kVariance;
+  auto made = Film::create(o);
+  if (!made) return made.error();
+  return std::make_shared<const Film>(*std::move(made));
+}
+
+double coarse_step(const Film& film, bool weight) {
+  const FilmOptions& o = film.options();
+  return std::ldexp(1.0, (weight ? o.weight_range : o.range) - kFilmCoarseBits);
+}
+
+/// The steps of limbs that a number came to.
+double in_rest_steps(double v, double coarse, double rest, double step) {
+  // A contribution less its coarse part is exact in double, and so is what is left.
+  return ((v - coarse * step) - rest * std::ldexp(step, -kFilmLimbBits)) / std::ldexp(step, -kFilmLimbBits);
+}
+
+const std::int32_t* whole_tile() {
+  static const auto addresses = [] {
+    std::array<std::int32_t, kFilmTilePixels> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::int32_t>(i);
+    return out;
+  }();
+  return addresses.data();
+}
+
+/// What a filter may give, exact in few bits.
+const float* filter_weights() {
+  static const auto weights = [] {
+    std::array<float, kFilmTilePixels> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(1 + i % 61) / 64.0F;
+    return out;
+  }();
+  return weights.data();
+}
+
+const std::uint32_t* each_sample() {
+  static const auto samples = [] {
+    std::array<std::uint32_t, kFilmTilePixels> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
+    return out;
+  }();
+  return samples.data();
+}
+
+/// Calls add(first lane, entries, tile) for each tile's worth of lanes; lane i is pixel i of its tile.
+template <class Add>
+void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
+  for (std::size_t first = 0; first < a.n(); first += kFilmTilePixels) {
+    std::int64_t* tile = a.out<std::int64_t>() + first * limbs;
+    FilmEntries entries;
+    entries.address = whole_tile();
+    entries.count = std::min(kFilmTilePixels, a.n() - first);
+    entries.tile = 0;
+    add(first, entries, &tile);
+  }
+}
+
+/// Within what a film lets through to its sums.
+float held(float v, double most) {
+  const auto limit = static_cast<float>(most);
+  return std::isnan(v) ? 0.0F : std::clamp(v, -limit, limit);
+}
+
+double largest(const Film& film, bool weight) {
+  return std::ldexp(coarse_step(film, weight), kFilmCoarseBits);
+}
+
+Operation sums_operation(std::string name, std::size_t limbs) {
+  Operation op;
+  op.group = "film";
+  op.name = std::move(name);
+  op.item = "sample";
+  op.in = {1, 4, Element::kQuad};
+  op.out = {1, limbs, Element::kLimb};
+  op.cache_only = true;  // a tile of pixels stays in the caches while its samples come
+  op.adds = true;
+  op.clear = [limbs](const Arrays& a) {
+    std::memset(a.out<std::int64_t>(), 0, a.n() * limbs * sizeof(std::int64_t));
+  };
+  op.fill = [](Random& random, float* v) {
+    for (std::size_t c = 0; c < 3; ++c) v[c] = uniform(random, 0.0F, 2.0F);
+    v[3] = uniform(random, 0.5F, 1.0F);
+  };
+  return op;
+}
+
+/// A sum of two limbs on doubles: widened, rounded to both limbs' steps and taken from what is left.
+constexpr double kLimbPair = 2 * 9;
+
+void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
+  Operation op = sums_operation("film: add colours", kPixelLimbs);
+  op.operations = 4 * kLimbPair;
+  op.unit = "of a step of the grid";
+  op.bound = 0.5;
+  op.run = [film](const KernelTable& k, const Arrays& a) {
+    over_tiles(
+        a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
+          k.film_add(tiles, 0, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1, kPixelLimbs);
+        });
+  };
+  op.admit = [film](float* v) {
+    for (std::size_t c = 0; c < 4; ++c) v[c] = held(v[c], largest(*film, c == 3));
+  };
+  op.error = [=](const double* v, const double* limbs, double tiny) {
+    double worst = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double step = coarse_step(*film, c == 3);
+      const double off = std::abs(in_rest_steps(v[c], limbs[c], limbs[4 + c], step));
+      worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
+    }
+    return worst;
+  };
+  to.push_back(op);
+
+  // As a filter spreads them: a factor for each pixel reached.
+  op.name = "film: add colours with filter weights";
+  op.item = "pixel reached";
+  op.operations += 4;
+  op.binds = "one entry after another, as two may reach the same pixel";
+  op.unit = "u and half a step of the grid";
+  op.bound = 1;
+  op.run = [film](const KernelTable& k, const Arrays& a) {
+    over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, std::int64_t* const* tiles) {
+      entries.sample = each_sample();
+      entries.factor = filter_weights();
+      k.film_add(tiles, 0, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1, kPixelLimbs);
+    });
+  };
+  op.error = nullptr;
+  op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
+    const auto factor = static_cast<double>(filter_weights()[lane % kFilmTilePixels]);
+    double worst = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double step = coarse_step(*film, c == 3);
+      const double truth = v[c] * factor;
+      const double half = 0.5 * std::ldexp(step, -kFilmLimbBits) + tiny;
+      const double off =
+          std::abs(in_rest_steps(truth, limbs[c], limbs[4 + c], step)) * std::ldexp(step, -kFilmLimbBits);
+      if (off > half) worst = std::max(worst, (off - half) / (0x1p-24 * std::abs(truth)));
+    }
+    return worst;
+  };
+  to.push_back(std::move(op));
+}
+
+void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
+  Operation op = sums_operation("film: add 4 wavelengths to their bands", 4 * kHitBands);
+  op.in = {kFilmWavelengths, 2, Element::kQuad};
+  op.touched_bytes = kFilmWavelengths * 4 * sizeof(std::int64_t);
+  // Two numbers a wavelength, times the factor.
+  op.operations = kFilmWavelengths * 2 * (1 + kLimbPair);
+  op.unit = "of a step of the grid";
+  op.bound = 0.5;
+  op.binds = "two numbers at a time, as each wavelength goes to a band of its own";
+  op.fill = [](Random& random, float* v) {
+    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
+  };
+  const auto band_of = [](std::size_t lane, std::size_t k) { return (lane + 2 * k) % kHitBands; };
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    // Rows of pairs are as far apart as the planes, and so are those of bands.
+    const std::size_t apart = a.source_plane / (2 * sizeof(float));
+    thread_local std::vector<std::int32_t> bands;
+    if (bands.size() != apart * kFilmWavelengths) {
+      bands.resize(apart * kFilmWavelengths);
+      for (std::size_t i = 0; i < bands.size(); ++i) {
+        bands[i] = static_cast<std::int32_t>(band_of(i % apart, i / apart));
+      }
+    }
+    over_tiles(a, 4 * kHitBands,
+               [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
+                 k.film_add_hits(tiles, 0, FilmAccess::state(*film).band_grid, entries, bands.data() + first,
+                                 a.in() + 2 * first, kFilmWavelengths, apart, kHitBands);
+               });
+  };
+  op.admit = [film](float* v) {
+    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = held(v[k], largest(*film, k % 2 == 1));
+  };
+  op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
+    double worst = 0;
+    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
+      const double* const of_band = limbs + 4 * band_of(lane, k);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double step = coarse_step(*film, c == 1);
+        const double off = std::abs(in_rest_steps(v[2 * k + c], of_band[c], of_band[2 + c], step));
+        worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
+      }
+    }
+    return worst;
+  };
+  to.push_back(std::move(op));
+}
+
+void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
+  Operation op = sums_operation("film: add moments", kPixelLimbs);
+  op.operations = 2 * (4 + 7 * 5 + 1);
+  op.divisions = 2;
+  op.unit = "2^-53";
+  op.bound = 2.01;
+  op.binds = "one sample after another: seven limbs in scalar doubles, each of what the one before left";
+  op.run = [film](const KernelTable& k, const Arrays& a) {
+    over_tiles(
+        a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
+          k.film_add_moments(tiles, 0, FilmAccess::state(*film).moment_grid, entries, a.in() + 4 * first);
+        });
+  };
+  op.admit = [film](float* v) {
+    v[3] = std::abs(held(v[3], largest(*film, true)));
+    // The luminance before it is weighed is within the range too.
+    v[1] = held(v[1], static_cast<double>(v[3]) * largest(*film, false));
+  };
+  op.error = [film](const double* v, const double* limbs, double tiny) {
+    const FilmOptions& o = film->options();
+    const long double y = v[1];
+    const long double w = v[3];
+    const long double square = w == 0 ? 0 : y * y / w;
+    const int top = 2 * o.range + o.weight_range;
+    const auto sum = [](const double* limb, std::size_t count, const std::size_t* at, int exponent) {
+      long double out = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        out += static_cast<long double>(limb[at[k]]) *
+               std::ldexp(1.0L, exponent - kFilmCoarseBits - static_cast<int>(k) * kFilmLimbBits);
+      }
+      return out;
+    };
+    constexpr std::size_t kSquares[] = {0, 1, 2, 3};
+    constexpr std::size_t kWeights[] = {4, 5, 7};
+    const auto error = [&](long double found, long double truth, int exponent, int limbs_in_it) {
+      const long double half =
+          std::ldexp(0.5L, exponent - kFilmCoarseBits - (limbs_in_it - 1) * kFilmLimbBits);
+      const long double off = std::abs(found - truth) - half - tiny;
+      return off > 0 ? static_cast<double>(off / (0x1p-53L * truth)) : 0.0;
+    };
+    if (limbs[6] != 1) return kBeyond;
+    return std::max(error(sum(limbs, 4, kSquares, top), square, top, 4),
+                    error(sum(limbs, 3, kWeights, 2 * o.weight_range), w * w, 2 * o.weight_range, 3));
+  };
+  to.push_back(std::move(op));
+}
+
+void add_counts(std::vector<Operation>& to) {
+  Operation op = sums_operation("film: count samples", 1);
+  op.in = {1, 1, Element::kInt};  // stands for the address that is read
+  op.fill = uniform_values(1, 0.0F, 1.0F);
+  op.operations = 1;
+  op.unit = "exact";
+  op.binds = "one address after another, as two may be of the same pixel";
+  op.run = [](const KernelTable& k, const Arrays& a) {
+    over_tiles(a, 1, [&](std::size_t, const FilmEntries& entries, std::int64_t* const* tiles) {
+      k.film_count(tiles, 0, entries);
+    });
+  };
+  op.error = [](const double*, const double* out, double) { return out[0] == 1 ? 0.0 : kBeyond; };
+  to.push_back(std::move(op));
+}
+
+}  // namespace
+
+Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands) {
+  const auto film = film_of(false);
+  if (!film) return film.error();
+  const auto spectral = film_of(true);
+  if (!spectral) return spectral.error();
+  add_film_samples(to, *film, *spectral, bands);
+  add_colors(to, *film);
+  add_hit_sums(to, *spectral);
+  add_moments(to, *film);
+  add_counts(to);
+  add_development(to, *film);
+  return {};
+}
+
+}  // namespace spectile::measure

@@ -1,0 +1,97 @@
+// What operations share: judging errors, typical values.
+#include "bench/operations/operation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "src/base/errors.hpp"
+
+namespace spectile::measure {
+namespace {
+
+constexpr double kU = 0x1p-24;
+constexpr double kLargest = std::numeric_limits<float>::max();
+/// From here on float rounds to infinity: half a step beyond its largest number.
+constexpr double kOverflow = 0x1.ffffffp127;
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+
+/// Error of one value in units of u of the scale.
+double error_of(double value, double truth, double scale, double allowance, bool single, double bound) {
+  // Where an intermediate result may overflow, an infinity may become no number, and no number stays none.
+  if (!single && !std::isfinite(truth)) {
+    return std::isfinite(value) || (std::isnan(truth) && !std::isnan(value)) ? kBeyond : 0;
+  }
+  if (std::isnan(truth)) return std::isnan(value) ? 0 : kBeyond;
+  if (std::isinf(truth)) return value == truth ? 0 : kBeyond;
+  if (single && std::abs(truth) >= kOverflow) {
+    return std::isinf(value) && std::signbit(value) == std::signbit(truth) ? 0 : kBeyond;
+  }
+  if (!single && scale * (1 + bound * kU) > kLargest) return kNotJudged;
+  if (!std::isfinite(value)) return kBeyond;
+  const double off = std::abs(value - truth);
+  if (off <= allowance) return 0;
+  return scale > 0 ? (off - allowance) / (kU * scale) : kBeyond;
+}
+
+}  // namespace
+
+std::function<double(const double*, const double*, double)> judged_by(std::size_t outputs, Oracle oracle,
+                                                                      double roundings, bool single,
+                                                                      double bound) {
+  return [=, oracle = std::move(oracle)](const double* in, const double* out, double tiny) {
+    thread_local std::vector<double> truth;
+    thread_local std::vector<double> scale;
+    truth.assign(outputs, 0.0);
+    scale.assign(outputs, 0.0);
+    oracle(in, truth.data(), scale.data());
+    double worst = kNotJudged;
+    for (std::size_t i = 0; i < outputs; ++i) {
+      worst = std::max(worst, error_of(out[i], truth[i], scale[i], roundings * tiny, single, bound));
+    }
+    return worst;
+  };
+}
+
+float uniform(Random& random, float low, float high) {
+  const auto unit = static_cast<float>(random() >> 40U) * 0x1p-24F;
+  return low + (high - low) * unit;
+}
+
+bool is_chosen(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+           return name.find(part) != std::string::npos;
+         });
+}
+
+bool finite3(const double* v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+double half_of_half_step(double value) {
+  // Half has eleven bits, and steps of 2^-24 below 2^-14.
+  return std::ldexp(0.5, std::max(-24, std::ilogb(std::max(value, 0x1p-14)) - 10));
+}
+
+std::function<void(Random&, float*)> uniform_values(std::size_t count, float low, float high) {
+  return [=](Random& random, float* values) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = uniform(random, low, high);
+  };
+}
+
+Result<std::vector<Operation>> lane_operations(const Bands& bands) {
+  std::vector<Operation> out;
+  add_arithmetic(out);
+  SPECTILE_TRY(add_reductions(out, bands));
+  SPECTILE_TRY(add_upsampling(out, bands));
+  SPECTILE_TRY(add_wavelengths(out));
+  SPECTILE_TRY(add_film(out, bands));
+  SPECTILE_TRY(add_film_sums(out, bands));
+  add_differences(out);
+  add_conversions(out);
+  return out;
+}
+
+}  // namespace spectile::measure

@@ -1,0 +1,151 @@
+// Operation: one thing that the kernels do to lanes, with what it costs at least and how its error is judged.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <random>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/result.hpp>
+#include <spectile/upsampling/upsample.hpp>
+#include <string>
+#include <vector>
+
+#include "kernels/abi.hpp"
+#include "bench/limits/limits.hpp"
+
+namespace spectile::measure {
+
+using Random = std::mt19937_64;
+
+enum class Element {
+  kFloat,
+  kHalf,
+  kMask,  ///< a bit a lane
+  kInt,   ///< whole numbers of 32 bits
+  kQuad,  ///< floats, a lane's rows side by side: [kLanes][rows]
+  kLimb,  ///< whole numbers of 64 bits, a lane's rows side by side
+};
+
+/// What a lane has in memory: planes of blocks [rows][kLanes].
+struct Shape {
+  std::size_t planes = 1;
+  std::size_t rows = 1;
+  Element element = Element::kFloat;
+  std::size_t values() const noexcept { return planes * rows; }
+  /// Of a block in a plane.
+  std::size_t block_bytes() const noexcept {
+    if (element == Element::kMask) return rows * sizeof(std::uint64_t);
+    const std::size_t bytes = element == Element::kHalf   ? sizeof(std::uint16_t)
+                              : element == Element::kLimb ? sizeof(std::int64_t)
+                                                          : sizeof(float);
+    return rows * kernels::kLanes * bytes;
+  }
+  double lane_bytes() const noexcept {
+    return static_cast<double>(planes * block_bytes()) / static_cast<double>(kernels::kLanes);
+  }
+};
+
+/// Where a run of blocks lies.
+struct Arrays {
+  const std::byte* source = nullptr;
+  std::byte* target = nullptr;
+  std::size_t source_plane = 0;  ///< bytes from plane to plane
+  std::size_t target_plane = 0;
+  std::size_t blocks = 0;
+  bool around = false;  ///< store round the caches, where the kernel can
+
+  std::size_t n() const noexcept { return blocks * kernels::kLanes; }
+  template <class T = float>
+  const T* in(std::size_t plane = 0) const noexcept {
+    return reinterpret_cast<const T*>(source + plane * source_plane);
+  }
+  template <class T = float>
+  T* out(std::size_t plane = 0) const noexcept {
+    return reinterpret_cast<T*>(target + plane * target_plane);
+  }
+};
+
+/// An error that cannot be judged: the case lies outside of what the operation promises.
+inline constexpr double kNotJudged = -1;
+
+struct Operation {
+  std::string group, name;
+  std::string item = "lane";
+  Shape in, out;
+  /// A lane's arithmetic: vector instructions that are neither load nor store, one on doubles counting twice.
+  double operations = 0;
+  double divisions = 0;
+  bool can_stream = false;  ///< the kernel stores round the caches where it is told
+  bool bitwise = false;     ///< looks at bits: denormals are not 0 in any mode of the processor
+  bool cache_only = false;  ///< works on a line of an image, never on more
+  bool adds = false;        ///< to what is there: the target is read too
+  /// A lane's bytes of the target that are touched; below 0: all.
+  double touched_bytes = -1;
+  /// So many times fewer lanes are tried: for what takes microseconds a lane.
+  std::size_t dear = 1;
+  std::string binds;       ///< what binds it where its limit does not, in words
+  std::string unit = "u";  ///< of error and bound
+  double bound = 0;
+  std::function<void(const kernels::KernelTable&, const Arrays&)> run;
+  /// Makes a target ready to be added to; empty where none is. Called before what is judged.
+  std::function<void(const Arrays&)> clear;
+  /// Typical values of one lane, [planes][rows].
+  std::function<void(Random&, float* values)> fill;
+  /// Makes of any numbers what the operation may be given; empty where that is all.
+  std::function<void(float* values)> admit;
+  /// Error of a lane, [planes][rows] each: at most `bound`, or kNotJudged. `tiny`: what a result or an
+  /// operand may be off by where it is below the least normal number.
+  std::function<double(const double* in, const double* out, double tiny)> error;
+  /// In its place, where it matters which lane it is.
+  std::function<double(std::size_t lane, const double* in, const double* out, double tiny)> error_at;
+  /// In its place, for what tells of all lanes together: the largest error of a run.
+  std::function<double(const Arrays&, bool flushed)> error_of_run;
+  /// Reads a lane's results out of a block of the target, where they do not lie as the shape says.
+  std::function<void(const std::byte* block, std::size_t lane, double* values)> read_block;
+  Cost cost() const {
+    const double written = touched_bytes >= 0 ? touched_bytes : out.lane_bytes();
+    return {in.lane_bytes() + (adds ? written : 0), written, operations, divisions};
+  }
+};
+
+/// The truth of a lane: values and, for each, the magnitude that the bound is a multiple of u of.
+using Oracle = std::function<void(const double* in, double* truth, double* scale)>;
+
+/// Judges against the oracle. Errors in units of u = 2^-24 of `scale`; `roundings`: of results that may be
+/// below the least normal number. Where a sum of magnitudes leaves float's range nothing is promised but for
+/// operations that are `single`: rounded once, whose overflow is the infinity that rounding gives.
+std::function<double(const double*, const double*, double)> judged_by(std::size_t outputs, Oracle oracle,
+                                                                      double roundings, bool single,
+                                                                      double bound);
+
+/// Uniform in [low, high).
+float uniform(Random& random, float low, float high);
+
+/// Whether a name contains one of these; every one does where there are none.
+bool is_chosen(const std::string& name, const std::vector<std::string>& only);
+
+/// Whether three numbers are.
+bool finite3(const double* v);
+
+/// Half a step of half at a value.
+double half_of_half_step(double value);
+
+/// Fills a lane's values uniformly.
+std::function<void(Random&, float*)> uniform_values(std::size_t count, float low, float high);
+
+/// Everything that the kernels do, for spectra on these bands. Errors: as Upsampler::create() and Projector.
+Result<std::vector<Operation>> lane_operations(const Bands& bands);
+
+// Its parts.
+void add_arithmetic(std::vector<Operation>& to);
+Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
+Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
+void add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
+Result<void> add_wavelengths(std::vector<Operation>& to);
+Result<void> add_film(std::vector<Operation>& to, const Bands& bands);
+Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands);
+void add_differences(std::vector<Operation>& to);
+void add_conversions(std::vector<Operation>& to);
+
+}  // namespace spectile::measure

@@ -1,0 +1,185 @@
+// What a lane holds over its bands, and its colour.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <spectile/color/colorimetry.hpp>
+#include <spectile/spectra/named_spectra.hpp>
+
+#include "src/base/errors.hpp"
+#include "bench/operations/operation.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+
+Operation spectrum_operation(std::string name, std::size_t planes, std::size_t bands) {
+  Operation out;
+  out.group = "over the bands";
+  out.name = std::move(name);
+  out.item = "spectrum";
+  out.in = {planes, bands};
+  out.out = {1, 1};
+  out.fill = uniform_values(planes * bands, 0.01F, 1.0F);
+  return out;
+}
+
+void add_extremes(std::vector<Operation>& to, std::size_t bands) {
+  const auto extreme = [&](const char* name, auto kernel, bool least) {
+    Operation op = spectrum_operation(name, 1, bands);
+    op.operations = 2 * static_cast<double>(bands);  // compare, choose
+    op.unit = "exact";
+    op.run = [=](const KernelTable& k, const Arrays& a) { (k.*kernel)(a.out(), a.in(), bands, a.blocks); };
+    op.error = judged_by(
+        1,
+        [=](const double* v, double* truth, double* scale) {
+          double found =
+              least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+          for (std::size_t i = 0; i < bands; ++i) {
+            if (least ? v[i] < found : found < v[i]) found = v[i];
+          }
+          truth[0] = found;
+          scale[0] = std::abs(found);
+        },
+        1, true, 0);
+    to.push_back(std::move(op));
+  };
+  extreme("minimum", &KernelTable::minimum, true);
+  extreme("maximum", &KernelTable::maximum, false);
+}
+
+void add_masks(std::vector<Operation>& to, std::size_t bands) {
+  const auto mask = [&](const char* name, std::size_t planes, auto run, auto truth_of) {
+    Operation op = spectrum_operation(name, planes, bands);
+    op.operations = static_cast<double>(bands);
+    op.unit = "exact";
+    op.out.element = Element::kMask;
+    op.run = run;
+    op.error = [=](const double* in, const double* out, double /*tiny*/) {
+      return (out[0] != 0) == truth_of(in) ? 0.0 : std::numeric_limits<double>::infinity();
+    };
+    to.push_back(std::move(op));
+  };
+  mask(
+      "is_black", 1,
+      [=](const KernelTable& k, const Arrays& a) {
+        k.black_mask(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
+      },
+      [=](const double* v) { return std::all_of(v, v + bands, [](double x) { return x == 0; }); });
+  to.back().bitwise = true;
+  // What is looked at until the first sample that is not 0 must be black to be looked at whole.
+  to.back().fill = uniform_values(bands, 0.0F, 0.0F);
+  mask(
+      "has_nan", 1,
+      [=](const KernelTable& k, const Arrays& a) {
+        k.nan_mask(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
+      },
+      [=](const double* v) { return std::any_of(v, v + bands, [](double x) { return std::isnan(x); }); });
+  mask(
+      "equal_lanes", 2,
+      [=](const KernelTable& k, const Arrays& a) {
+        k.equal_mask(a.out<std::uint64_t>(), a.in(0), a.in(1), bands, a.blocks);
+      },
+      [=](const double* v) { return std::equal(v, v + bands, v + bands); });
+  to.back().fill = [=](Random& random, float* values) {
+    for (std::size_t i = 0; i < bands; ++i) values[i] = values[bands + i] = uniform(random, 0.01F, 1.0F);
+  };
+}
+
+/// Sums of weights [count][bands] times samples, in double.
+Oracle weighted_by(const std::shared_ptr<const std::vector<double>>& weights, std::size_t bands,
+                   std::size_t count) {
+  return [=](const double* v, double* truth, double* scale) {
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t i = 0; i < bands; ++i) {
+        const double term = (*weights)[k * bands + i] * v[i];
+        truth[k] += term;
+        scale[k] += std::abs(term);
+      }
+    }
+  };
+}
+
+}  // namespace
+
+Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
+  const std::size_t n = bands.count();
+  const auto count = static_cast<double>(n);
+  add_extremes(to, n);
+  add_masks(to, n);
+
+  auto light = illuminant("D65");
+  if (!light) return light.error();
+  auto made = Projector::reflective(bands, *light);
+  if (!made) return made.error();
+  const auto projector = std::make_shared<const Projector>(*std::move(made));
+  auto weights = std::make_shared<std::vector<double>>(3 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) (*weights)[k * n + i] = projector->weights()[i][k];
+  }
+  auto y_weights =
+      std::make_shared<std::vector<double>>(weights->begin() + static_cast<std::ptrdiff_t>(n),
+                                            weights->begin() + static_cast<std::ptrdiff_t>(2 * n));
+  // Products, sums within runs of eight, sums of the runs.
+  const double sums = count + std::ceil(count / static_cast<double>(kernels::kSumRun));
+
+  Operation xyz = spectrum_operation("project to XYZ", 1, n);
+  xyz.group = "colorimetry";
+  xyz.out = {3, 1};
+  xyz.operations = 3 * (count + sums);
+  xyz.bound = count / 8 + 11;
+  xyz.binds =
+      "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
+      "memory";
+  xyz.run = [=](const KernelTable& k, const Arrays& a) {
+    k.project(a.out(0), a.out(1), a.out(2), a.in(), projector->float_weights(), n, a.blocks);
+  };
+  xyz.error = judged_by(3, weighted_by(weights, n, 3), count, false, xyz.bound);
+  to.push_back(std::move(xyz));
+
+  Operation y = spectrum_operation("luminance", 1, n);
+  y.group = "colorimetry";
+  y.operations = count + sums;
+  y.bound = count / 8 + 11;
+  y.run = [=](const KernelTable& k, const Arrays& a) {
+    k.weighted_sum(a.out(), a.in(), projector->luminance_weights(), n, a.blocks);
+  };
+  y.error = judged_by(1, weighted_by(y_weights, n, 1), count, false, y.bound);
+  to.push_back(std::move(y));
+
+  Operation transform;
+  transform.group = "colorimetry";
+  transform.name = "XYZ to linear sRGB";
+  transform.item = "colour";
+  transform.in = {3, 1};
+  transform.out = {3, 1};
+  transform.operations = 15;
+  transform.bound = 4;  // the matrix's own rounding, a product, two sums
+  transform.fill = uniform_values(3, 0.01F, 1.0F);
+  auto matrix = std::make_shared<std::vector<float>>(9);
+  auto exact_matrix = std::make_shared<std::vector<double>>(9);
+  for (std::size_t i = 0; i < 9; ++i) {
+    (*exact_matrix)[i] = xyz_to_srgb_matrix()[i];
+    (*matrix)[i] = static_cast<float>((*exact_matrix)[i]);
+  }
+  transform.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
+    const float* const src[3] = {a.in(0), a.in(1), a.in(2)};
+    k.transform3(dst, src, matrix->data(), a.n());
+  };
+  transform.error = judged_by(
+      3,
+      [=](const double* v, double* truth, double* scale) {
+        for (std::size_t i = 0; i < 9; ++i) {
+          const double term = (*exact_matrix)[i] * v[i % 3];
+          truth[i / 3] += term;
+          scale[i / 3] += std::abs(term);
+        }
+      },
+      3, false, transform.bound);
+  to.push_back(std::move(transform));
+  return {};
+}
+
+}  // namespace spectile::measure

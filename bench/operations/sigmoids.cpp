@@ -1,0 +1,320 @@
+// Sigmoid spectra: searched for, and evaluated in each of the ways that images and renderers need.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "kernels/sigmoid_constants.hpp"
+#include "bench/operations/operation.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+using kernels::kLanes;
+using kernels::SigmoidTable;
+
+using Shared = std::shared_ptr<const Upsampler>;
+
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+
+/// A sample: nine fused multiply-adds, products and sums more, the limits, the guess from its bits.
+constexpr double kSigmoidBand = 16;
+
+/// The sigmoid in double, from coefficients in float.
+double sigmoid(const double* c, double lambda) {
+  const double x = (c[0] * lambda + c[1]) * lambda + c[2];
+  return std::clamp(0.5 + 0.5 * x / std::sqrt(1 + x * x), 0.0, 1.0);
+}
+
+double lambda_of(const SigmoidTable& table, std::size_t band) {
+  return static_cast<double>(table.rows[band * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
+}
+
+/// 2^-23 of the sigmoid itself; the polynomial's rounding times its slope, 1/2 at most.
+double allowed_at(const double* c, double lambda) {
+  return 0x1p-23 + 0x1p-24 * (std::abs(c[0]) * lambda * lambda + std::abs(c[1] * lambda) + std::abs(c[2]));
+}
+
+/// Coefficients for which allowed_at() holds.
+bool promised(const double* c) {
+  return finite3(c) && std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) <= 0x1p60;
+}
+
+/// The colour that coefficients have.
+std::array<double, 3> sums_of(const SigmoidTable& table, const double* c) {
+  std::array<double, 3> sum{};
+  for (std::size_t b = 0; b < table.bands; ++b) {
+    const double s = sigmoid(c, lambda_of(table, b));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(table.weights[4 * b + k]) * s;
+  }
+  return sum;
+}
+
+void add_search(std::vector<Operation>& to, const Shared& upsampler) {
+  const SigmoidModel& model = *upsampler->sigmoid();
+  const std::size_t bands = upsampler->bands().count();
+  const auto count = static_cast<double>(bands);
+  Operation solve;
+  solve.group = "upsampling";
+  solve.name = "sigmoid: find coefficients";
+  solve.item = "colour";
+  solve.in = {3, 1};
+  solve.out = {3, 1};
+  solve.unit = "1e-6 of the colour";
+  // Bands on which some colours have no sigmoid promise 1e-5 for what is not reported.
+  solve.bound = model.has_cube ? 1 : 10;
+  solve.fill = uniform_values(3, 0.0F, 1.0F);
+  // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
+  // with the samples, their slopes and the nine sums of the derivatives.
+  solve.operations = 2 * count * (kSigmoidBand + 20);
+  solve.binds = "further steps for the lanes of a vector that need them, gathers, and a 3 x 3 system a step";
+  solve.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const c[3] = {a.out(0), a.out(1), a.out(2)};
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    thread_local std::vector<std::uint64_t> unsolved;
+    unsolved.resize(a.blocks);
+    k.sigmoid_solve(c, rgb, upsampler->sigmoid()->table, unsolved.data(), a.n());
+    // What is reported is marked for the judge.
+    for (std::size_t i = 0; i < a.n(); ++i) {
+      if (unsolved[i / kLanes] == 0) {
+        i += kLanes - 1;
+      } else if ((unsolved[i / kLanes] >> (i % kLanes) & 1U) != 0) {
+        c[0][i] = std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  };
+  const kernels::SigmoidTable table = model.table;
+  const bool has_cube = model.has_cube;
+  solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
+    if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
+    if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kNotJudged;
+    // Bands that have no sigmoid for some colours report them.
+    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kNotJudged;
+    const auto sum = sums_of(table, c);
+    double worst = 0;
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
+    return worst / 1e-6;
+  };
+  to.push_back(std::move(solve));
+}
+
+/// What the kernel's sums may be off by: each sample by its own rounding and by its slope times that of the
+/// polynomial.
+std::array<double, 3> rounding_of_sums(const SigmoidTable& table, const double* c) {
+  std::array<double, 3> sum{};
+  for (std::size_t b = 0; b < table.bands; ++b) {
+    const double l = lambda_of(table, b);
+    const double x = (c[0] * l + c[1]) * l + c[2];
+    const double slope = 0.5 / std::pow(1 + x * x, 1.5);
+    const double terms = std::abs(c[0]) * l * l + std::abs(c[1] * l) + std::abs(c[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[k] += std::abs(static_cast<double>(table.weights[4 * b + k])) * (0x1p-23 + 0x1p-23 * slope * terms);
+    }
+  }
+  return sum;
+}
+
+/// What sigmoid_solve does not find, for colours outside the cube as well as in it.
+void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
+  const SigmoidTable table = upsampler->sigmoid()->table;
+  const auto count = static_cast<double>(table.bands);
+  Operation op;
+  op.group = "upsampling";
+  op.name = "sigmoid: the long way from grey";
+  op.item = "colour";
+  op.in = {3, 1};
+  op.out = {4, 1};
+  op.unit = "of what counts as found";
+  op.bound = 1;
+  op.dear = 64;
+  op.cache_only = true;
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  // Some eight steps of the search, each as above.
+  op.operations = 8 * count * (kSigmoidBand + 20);
+  op.binds = "steps without end for the lanes of a vector that need the most, up to 256";
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const c[3] = {a.out(0), a.out(1), a.out(2)};
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    k.sigmoid_reach(c, a.out(3), rgb, upsampler->sigmoid()->table, upsampler->luminance().data(), a.n());
+  };
+  const std::array<float, 3> luminance = upsampler->luminance();
+  op.error = [=](const double* rgb, const double* out, double tiny) {
+    const double part = out[3];
+    if (!finite3(rgb)) return std::isnan(out[0]) && part == 1 ? 0.0 : kBeyond;
+    double y = 0;
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      y += static_cast<double>(luminance[k]) * rgb[k];
+      size = std::max(size, std::abs(rgb[k]));
+    }
+    if (!(part >= 0 && part <= 1)) return kBeyond;
+    if (size > 1e30) return kNotJudged;
+    // Of black and white nothing is asked but their coefficients; where y rounds to either, any of the two.
+    if (part == 0)
+      return std::abs(out[2]) >= static_cast<double>(kernels::kSigmoidFar) || promised(out) ? 0.0 : kBeyond;
+    const double grey = std::min(y, 1 - y);
+    const auto met = std::min(static_cast<double>(kernels::kSigmoidUnsolved),
+                              std::abs(grey) * static_cast<double>(kernels::kSigmoidMet));
+    const double near = std::abs(grey) * static_cast<double>(kernels::kReachNear);
+    const double found = std::max(part < 1 ? near : met, static_cast<double>(kernels::kSigmoidRounding));
+    const auto sum = sums_of(table, out);
+    const auto rounding = rounding_of_sums(table, out);
+    double worst = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // The goal is rounded too.
+      const double allowed = found + rounding[k] + 0x1p-23 * (1 + size) + tiny;
+      worst = std::max(worst, std::abs(sum[k] - (y + part * (rgb[k] - y))) / allowed);
+    }
+    return worst;
+  };
+  to.push_back(std::move(op));
+}
+
+Operation evaluation(std::string name, std::size_t bands) {
+  Operation op;
+  op.group = "upsampling";
+  op.name = std::move(name);
+  op.item = "colour";
+  op.in = {3, 1};
+  op.operations = kSigmoidBand * static_cast<double>(bands);
+  op.unit = "stated bound";
+  op.bound = 1;
+  op.binds = "one chain of sixteen operations a sample, of which sixteen registers hold few side by side";
+  // Coefficients as those of real colours are.
+  op.fill = uniform_values(3, -8.0F, 8.0F);
+  return op;
+}
+
+void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
+  const SigmoidTable table = upsampler->sigmoid()->table;
+  const std::size_t bands = table.bands;
+  const auto samples_error = [=](const double* c, const double* out, double /*tiny*/) {
+    if (!promised(c)) return kNotJudged;
+    double worst = 0;
+    for (std::size_t b = 0; b < bands; ++b) {
+      const double l = lambda_of(table, b);
+      worst = std::max(worst, std::abs(out[b] - sigmoid(c, l)) / allowed_at(c, l));
+    }
+    return worst;
+  };
+  Operation blocks = evaluation("sigmoid: evaluate", bands);
+  blocks.out = {1, bands};
+  blocks.can_stream = true;
+  blocks.run = [=](const KernelTable& k, const Arrays& a) {
+    const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
+    k.sigmoid_blocks(a.out(), c, nullptr, upsampler->sigmoid()->table.rows, false, bands, a.blocks, a.around);
+  };
+  blocks.error = samples_error;
+  to.push_back(std::move(blocks));
+
+  for (const bool half : {false, true}) {
+    Operation line = evaluation(
+        half ? "sigmoid: evaluate to a line of halves" : "sigmoid: evaluate to a line of floats", bands);
+    line.out = {bands, 1, half ? Element::kHalf : Element::kFloat};
+    line.operations += half ? 3 * static_cast<double>(bands) : 0;
+    line.cache_only = true;
+    line.run = [=](const KernelTable& k, const Arrays& a) {
+      const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
+      thread_local std::vector<void*> rows;
+      rows.resize(bands);
+      for (std::size_t b = 0; b < bands; ++b) {
+        rows[b] = half ? static_cast<void*>(a.out<std::uint16_t>(b)) : static_cast<void*>(a.out(b));
+      }
+      const float* const samples = upsampler->sigmoid()->table.rows;
+      (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(rows.data(), c, nullptr, samples, false, bands,
+                                                          a.n());
+    };
+    line.error = samples_error;
+    if (half) {
+      line.unit = "half ULP of half";
+      line.bound = 1.001;
+      line.error = [=](const double* c, const double* out, double /*tiny*/) {
+        if (!promised(c)) return kNotJudged;
+        double worst = 0;
+        for (std::size_t b = 0; b < bands; ++b) {
+          const double l = lambda_of(table, b);
+          const double truth = sigmoid(c, l);
+          const double off = std::max(0.0, std::abs(out[b] - truth) - allowed_at(c, l));
+          worst = std::max(worst, off / half_of_half_step(truth));
+        }
+        return worst;
+      };
+    }
+    to.push_back(std::move(line));
+  }
+
+  // Colours of coefficients, as sums over the bands that are not stored.
+  Operation sums = evaluation("sigmoid: sum to a colour", bands);
+  sums.out = {3, 1};
+  sums.operations += (6 + 3.0 / 8) * static_cast<double>(bands);
+  sums.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
+    const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
+    const SigmoidTable& t = upsampler->sigmoid()->table;
+    k.sigmoid_project(dst, c, nullptr, t.rows, false, t.weights, bands, a.n());
+  };
+  sums.error = [=](const double* c, const double* out, double tiny) {
+    if (!promised(c)) return kNotJudged;
+    const auto truth = sums_of(table, c);
+    std::array<double, 3> allowed{};
+    const double roundings = static_cast<double>(bands) / 8 + 11;
+    for (std::size_t b = 0; b < bands; ++b) {
+      const double l = lambda_of(table, b);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double w = std::abs(static_cast<double>(table.weights[4 * b + k]));
+        allowed[k] += w * (allowed_at(c, l) + roundings * 0x1p-24 * sigmoid(c, l) + tiny);
+      }
+    }
+    double worst = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      worst = std::max(worst, std::abs(out[k] - truth[k]) / (allowed[k] + tiny));
+    return worst;
+  };
+  to.push_back(std::move(sums));
+}
+
+/// One spectrum at many wavelengths.
+void add_at_wavelengths(std::vector<Operation>& to) {
+  static constexpr float kCoefficients[3] = {-3.0F, 1.0F, 0.5F};
+  constexpr float kLowest = 400;
+  constexpr float kHighest = 700;
+  Operation op;
+  op.group = "wavelengths";
+  op.name = "sigmoid at wavelengths";
+  op.item = "wavelength";
+  // Held between the ends (4), lambda, NaN (2).
+  op.operations = kSigmoidBand + 4 + 1 + 2;
+  op.divisions = 1;
+  op.unit = "stated bound";
+  op.bound = 1;
+  op.binds = "one chain of sixteen dependent operations after a quotient";
+  op.fill = uniform_values(1, 360.0F, 830.0F);
+  op.run = [](const KernelTable& k, const Arrays& a) {
+    k.sigmoid_at(a.out(), a.in(), kCoefficients, kLowest, kHighest, 1.0F, a.n());
+  };
+  op.error = [](const double* v, const double* out, double /*tiny*/) {
+    if (std::isnan(v[0])) return std::isnan(out[0]) ? 0.0 : kBeyond;
+    const double held = std::clamp(v[0], static_cast<double>(kLowest), static_cast<double>(kHighest));
+    const double l = sigmoid_lambda(held);
+    double c[3];
+    for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kCoefficients[k]);
+    // Lambda is rounded twice, which the polynomial's slope passes on.
+    const double slope = std::abs(2 * c[0] * l + c[1]);
+    const double allowed = allowed_at(c, l) + 0x1p-24 * slope * std::abs(l);
+    return std::abs(out[0] - sigmoid(c, l)) / allowed;
+  };
+  to.push_back(std::move(op));
+}
+
+}  // namespace
+
+void add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
+  add_search(to, upsampler);
+  add_reach(to, upsampler);
+  add_evaluations(to, upsampler);
+  add_at_wavelengths(to);
+}
+
+}  // namespace spectile::measure

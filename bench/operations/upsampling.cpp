@@ -1,0 +1,252 @@
+// Upsampling, relighting and gamut: from three numbers to spectra and colours.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <spectile/spectra/named_spectra.hpp>
+#include <spectile/upsampling/relight.hpp>
+#include <spectile/upsampling/upsample.hpp>
+
+#include "src/base/errors.hpp"
+#include "bench/operations/operation.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::KernelTable;
+using kernels::kLanes;
+using kernels::kSmitsRow;
+
+/// What a mixture of bases costs before its first band: ordering three numbers and finding their bases.
+constexpr double kMixture = 22;
+/// And a band: two permutes, three products, two sums, the limit from below.
+constexpr double kMixtureBand = 8;
+
+/// The row of bases that least, middle and greatest component of an RGB go to, and their weights.
+struct Mixture {
+  double weight[3];
+  std::size_t basis[3];
+};
+
+Mixture mixture_of(const double* rgb) {
+  // In float, as the kernel must choose by the very numbers it was given; differences in double.
+  const double least = std::min({rgb[0], rgb[1], rgb[2]});
+  const double most = std::max({rgb[0], rgb[1], rgb[2]});
+  const double middle = std::max(std::min(rgb[0], rgb[1]), std::min(std::max(rgb[0], rgb[1]), rgb[2]));
+  const auto low = static_cast<std::size_t>(std::min_element(rgb, rgb + 3) - rgb);
+  const auto high = static_cast<std::size_t>(std::max_element(rgb, rgb + 3) - rgb);
+  // White; cyan, magenta, yellow for what red, green, blue have least of; red, green, blue.
+  return {{least, middle - least, most - middle}, {0, 1 + low, 4 + high}};
+}
+
+/// Rows of a float table [rows][kSmitsRow] mixed, limited from below: 6 u of the sum of the weights'
+/// magnitudes times the largest basis value.
+std::function<double(const double*, const double*, double)> mixture_error(
+    const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
+  double largest = 0;
+  for (const double v : *basis) largest = std::max(largest, std::abs(v));
+  return judged_by(
+      rows,
+      [=](const double* rgb, double* truth, double* scale) {
+        // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
+        if (!finite3(rgb)) {
+          const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
+          std::fill_n(truth, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+          std::fill_n(scale, rows, std::numeric_limits<double>::max());
+          return;
+        }
+        const Mixture m = mixture_of(rgb);
+        double sum = 0;
+        for (const double w : m.weight) sum += std::abs(w);
+        for (std::size_t row = 0; row < rows; ++row) {
+          double v = 0;
+          for (std::size_t k = 0; k < 3; ++k) v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
+          truth[row] = std::max(v, lowest);
+          scale[row] = sum * largest;
+        }
+      },
+      5 * std::max(1.0, largest), false, 6);  // two differences and three products, each times a basis
+}
+
+std::shared_ptr<const std::vector<double>> basis_of(const Upsampler& upsampler) {
+  auto out = std::make_shared<std::vector<double>>();
+  for (const auto& row : upsampler.basis()) out->insert(out->end(), row.begin(), row.end());
+  return out;
+}
+
+void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
+                 const std::string& name) {
+  const std::size_t bands = upsampler->bands().count();
+  Operation op;
+  op.group = "upsampling";
+  op.name = "upsample, " + name;
+  op.item = "colour";
+  op.in = {3, 1};
+  op.out = {1, bands};
+  op.operations = kMixture + kMixtureBand * static_cast<double>(bands);
+  op.can_stream = true;
+  op.bound = 6;
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    k.smits_blocks(a.out(), rgb, upsampler->table(), upsampler->lowest(), bands, a.blocks, a.around);
+  };
+  op.error = mixture_error(basis_of(*upsampler), bands, 0);
+  to.push_back(op);
+
+  // A line of an image: a row a band, as OpenEXR packs them.
+  op.name = "upsample to a line of floats, " + name;
+  op.out = {bands, 1};
+  op.can_stream = false;
+  op.cache_only = true;
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    thread_local std::vector<void*> rows;
+    rows.resize(bands);
+    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out(b);
+    k.smits_rows_float(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
+  };
+  to.push_back(op);
+
+  op.name = "upsample to a line of halves, " + name;
+  op.out = {bands, 1, Element::kHalf};
+  op.operations = kMixture + (kMixtureBand + 3) * static_cast<double>(bands);
+  op.unit = "half ULP of half";
+  op.bound = 1.001;  // rounding to half, and the float before it
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    thread_local std::vector<void*> rows;
+    rows.resize(bands);
+    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out<std::uint16_t>(b);
+    k.smits_rows_half(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
+  };
+  const auto basis = basis_of(*upsampler);
+  op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
+    if (!finite3(rgb)) return kNotJudged;
+    const Mixture m = mixture_of(rgb);
+    double worst = 0;
+    for (std::size_t row = 0; row < bands; ++row) {
+      double v = 0;
+      double magnitudes = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
+        magnitudes += std::abs(m.weight[k]) * 2;
+      }
+      if (magnitudes > 1e37) return kNotJudged;
+      v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
+      const double rounding = 6 * 0x1p-24 * magnitudes;
+      worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
+    }
+    return worst;
+  };
+  to.push_back(std::move(op));
+}
+
+void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relighter>& relighter) {
+  Operation op;
+  op.group = "relighting";
+  op.name = "relight, smits-exact";
+  op.item = "colour";
+  op.in = {3, 1};
+  op.out = {3, 1};
+  op.operations = kMixture + 3 * (kMixtureBand - 1);
+  op.bound = 6;
+  op.binds =
+      "ordering the components and choosing bases: selections, of which AVX2's take three micro-operations";
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
+    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+    k.smits_fold(dst, rgb, relighter->table().data(), a.n());
+  };
+  auto basis = std::make_shared<std::vector<double>>();
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t k = 0; k < 7; ++k) basis->push_back(relighter->table()[row * kSmitsRow + k]);
+  }
+  op.error = mixture_error(basis, 3, -std::numeric_limits<double>::infinity());
+  to.push_back(std::move(op));
+}
+
+void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
+  const std::array<float, 3> weights = upsampler.luminance();
+  Operation op;
+  op.group = "relighting";
+  op.name = "limit to the gamut";
+  op.item = "colour";
+  op.in = {3, 1};
+  op.out = {3, 1};
+  op.unit = "1e-6 of the largest component";
+  op.bound = 1;
+  // Half of the colours are outside.
+  op.fill = uniform_values(3, -0.15F, 1.15F);
+  op.operations = 3 + 8 + 8 + 3 * 10 + 3 * 6;
+  op.divisions = 6;
+  op.cache_only = true;  // it works in place: the copy here would be another operation
+  op.binds = "copied first, as it works in place; six quotients a colour";
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    float* const rgb[3] = {a.out(0), a.out(1), a.out(2)};
+    for (std::size_t c = 0; c < 3; ++c) k.limit_copy(rgb[c], a.in(c), a.n());
+    thread_local std::vector<std::uint64_t> moved;
+    moved.resize(a.blocks);
+    k.limit_gamut(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());
+  };
+  op.error = [=](const double* rgb, const double* out, double tiny) {
+    if (!finite3(rgb)) return kNotJudged;
+    const double most = std::max({std::abs(rgb[0]), std::abs(rgb[1]), std::abs(rgb[2]), 1.0});
+    if (most > 1e30) return kNotJudged;
+    double before = 0;
+    double after = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(out[k] >= (rgb[k] < 0 ? 0 : -tiny) && out[k] <= 1))
+        return std::numeric_limits<double>::infinity();
+      before += static_cast<double>(weights[k]) * rgb[k];
+      after += static_cast<double>(weights[k]) * out[k];
+    }
+    return std::abs(std::clamp(before, 0.0, 1.0) - after) / (1e-6 * most);
+  };
+  to.push_back(std::move(op));
+}
+
+}  // namespace
+
+Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
+  const auto made_of = [&](Method method) -> std::shared_ptr<const Upsampler> {
+    auto made = Upsampler::create(method, Quantity::kReflectance, bands);
+    if (!made) return nullptr;
+    return std::make_shared<const Upsampler>(*std::move(made));
+  };
+  const auto smits = made_of(Method::kSmits);
+  if (smits == nullptr) return make_error(ErrorCode::kOutOfMemory, "no memory for a table of bases");
+  add_mixture(to, smits, "smits");
+  // The exact methods need bands that tell colours apart: where there are none, there is nothing to measure.
+  // Finding them for hundreds of bands takes minutes.
+  constexpr std::size_t kMostBands = 100;
+  if (bands.count() > kMostBands) {
+    add_gamut(to, *smits);
+    return {};
+  }
+  if (const auto exact = made_of(Method::kSmitsExact)) {
+    add_mixture(to, exact, "smits-exact");
+    auto light = illuminant("A");
+    if (!light) return light.error();
+    auto under = Projector::reflective(bands, *light);
+    if (!under) return under.error();
+    // The relighter refers to the others.
+    struct Kept {
+      std::shared_ptr<const Upsampler> upsampler;
+      Projector projector;
+      std::optional<Relighter> relighter;
+    };
+    auto kept = std::make_shared<Kept>(Kept{exact, *std::move(under), {}});
+    auto made = Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb());
+    if (!made) return made.error();
+    kept->relighter = *std::move(made);
+    add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
+  }
+  if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoids(to, sigmoids);
+  add_gamut(to, *smits);
+  return {};
+}
+
+}  // namespace spectile::measure

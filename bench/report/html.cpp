@@ -1,0 +1,147 @@
+// A benchmark's report as one page of HTML that needs nothing else.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <spectile/bench/benchmark.hpp>
+
+#include "bench/report/sections.hpp"
+#include "bench/report/text.hpp"
+
+namespace spectile {
+namespace report {
+namespace {
+
+std::string machine_part(const BenchmarkReport& report) {
+  const BenchmarkMachine& m = report.machine;
+  std::string isas;
+  for (const std::string& isa : m.isas) isas += (isas.empty() ? "" : ", ") + isa;
+  std::string list;
+  const auto entry = [&](const char* name, const std::string& value) {
+    if (value.empty() || value == kDash) return;
+    list += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(value));
+  };
+  entry("Processor", m.processor);
+  entry("Cores for this process", fmt::format("{}", m.cores));
+  entry("Instruction sets", isas);
+  entry("Second-level cache", bytes_text(m.second_level_cache));
+  entry("Last-level cache", bytes_text(m.last_level_cache));
+  entry("Worked on, a thread, for the cache", bytes_text(m.cache_bytes));
+  entry("Worked on for memory", bytes_text(m.memory_bytes));
+  entry("System", m.system);
+  entry("Compiler", m.compiler);
+  entry("spectile", m.version);
+  entry("Date", m.date);
+  if (report.seconds > 0) entry("The run took", number(report.seconds) + " s");
+  return fmt::format(
+      "<section id=\"machine\">\n<h2>Machine and build</h2>\n<dl class=\"facts\">\n{}</dl>\n</section>\n",
+      list);
+}
+
+std::string warning_part(const BenchmarkReport& report) {
+  if (report.disturbed.empty()) return {};
+  std::string list;
+  for (const std::string& part : report.disturbed) list += fmt::format("<li>{}</li>\n", escaped(part));
+  return fmt::format(
+      "<aside class=\"warning\" aria-label=\"Warning\">\n<p><strong>⚠ Other work took the processor during "
+      "this "
+      "run.</strong> Do not rely on the times of these parts; repeat the run on an idle "
+      "machine:</p>\n<ul>\n{}</ul>\n"
+      "</aside>\n",
+      list);
+}
+
+Section advice_section(const BenchmarkReport& report) {
+  Section section{"advice", "Which to use", ""};
+  if (report.advice.empty()) return section;
+  section.code = "<section id=\"advice\">\n<h2>Which to use for a given error</h2>\n";
+  for (const std::string& job : distinct(report.advice, [](const auto& a) { return a.job; })) {
+    section.code += fmt::format("<h3>{}</h3>\n<ul class=\"advice\">\n", escaped(job));
+    for (const BenchmarkAdvice& a : report.advice) {
+      if (a.job != job) continue;
+      section.code += a.light.empty() ? fmt::format("<li>{}</li>\n", escaped(a.sentence))
+                                      : fmt::format("<li><strong>{}</strong> {}</li>\n", escaped(a.light),
+                                                    escaped(a.sentence));
+    }
+    section.code += "</ul>\n";
+  }
+  section.code += "</section>\n";
+  return section;
+}
+
+Section reproduce_section(const BenchmarkReport& report) {
+  const std::string version = report.machine.version.empty() ? "" : " " + report.machine.version;
+  return {
+      "reproduce", "Reproduce",
+      fmt::format(
+          "<section id=\"reproduce\">\n<h2>How to reproduce this page</h2>\n"
+          "<p>With spectile{} on an idle machine; <code>spectile bench --help</code> lists what can be left "
+          "out or chosen:</p>\n<pre><code>spectile bench --report out.html</code></pre>\n"
+          "<p>Times vary with the machine and from run to run: the spread is half the range of the middle "
+          "half of the runs, over their median. Errors do not vary: every instruction set and number of "
+          "threads gives the same bits.</p>\n</section>\n",
+          escaped(version))};
+}
+
+std::string summary_of(const BenchmarkReport& report) {
+  std::vector<std::string> parts;
+  const auto count = [&](std::size_t n, const char* what) {
+    if (n > 0) parts.push_back(fmt::format("{} {}", count_text(n), what));
+  };
+  count(report.ways.size(), "timings of ways to do a job");
+  count(report.representations.size(), "of representations");
+  count(report.operations.size(), "of operations");
+  if (!report.stress.empty()) {
+    const auto beyond = std::count_if(report.stress.begin(), report.stress.end(), is_beyond);
+    parts.push_back(beyond == 0
+                        ? fmt::format("{} stress rows, all within their bounds", report.stress.size())
+                        : fmt::format("{} stress rows, <strong class=\"bad\">{} beyond</strong> their bounds",
+                                      report.stress.size(), beyond));
+  }
+  if (parts.empty()) return "<p>This report holds no measurements.</p>\n";
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
+  return fmt::format("<p class=\"summary\">In this report: {}.</p>\n", out);
+}
+
+std::string navigation(const std::vector<Section>& sections) {
+  std::string links = "<li><a href=\"#machine\">Machine</a></li>\n";
+  for (const Section& s : sections) {
+    if (!s.code.empty()) links += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", s.id, escaped(s.name));
+  }
+  return fmt::format("<nav aria-label=\"On this page\">\n<ul>\n{}</ul>\n</nav>\n", links);
+}
+
+}  // namespace
+}  // namespace report
+
+std::string benchmark_to_html(const BenchmarkReport& benchmark) {
+  using report::Section;
+  std::vector<Section> sections = {report::advice_section(benchmark)};
+  for (Section& section : report::way_sections(benchmark)) sections.push_back(std::move(section));
+  sections.push_back(report::representation_section(benchmark));
+  sections.push_back(report::operation_section(benchmark));
+  sections.push_back(report::limit_section(benchmark));
+  sections.push_back(report::scaling_section(benchmark));
+  sections.push_back(report::stress_section(benchmark));
+  sections.push_back(report::reproduce_section(benchmark));
+
+  std::string body;
+  for (const Section& section : sections) body += section.code;
+  const std::string on = benchmark.machine.processor.empty() ? "" : " on " + benchmark.machine.processor;
+  const std::string title = report::escaped("spectile benchmark" + on);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n"
+      "<style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n"
+      "<p>spectile computes with spectra in place of colours; this page says what its operations cost on one "
+      "machine "
+      "in one run, as a share of what that machine can do, and how wrong each is. "
+      "For every way of doing a job it sets the time against the colour error that is left, in CIEDE2000, of "
+      "which "
+      "about 1 can just be seen, so that you can take the fastest that is good enough.</p>\n{}</header>\n{}"
+      "<main>\n{}{}{}</main>\n</body>\n</html>\n",
+      title, report::kStyleSheet, title, report::summary_of(benchmark), report::navigation(sections),
+      report::machine_part(benchmark), report::warning_part(benchmark), body);
+}
+
+}  // namespace spectile

@@ -1,0 +1,139 @@
+// The section that sets representations side by side: error against time as the bounces grow.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/report/sections.hpp"
+#include "bench/report/table.hpp"
+#include "bench/report/svg_chart.hpp"
+
+namespace spectile::report {
+namespace {
+
+using Rows = std::vector<const RepresentationSpeed*>;
+
+/// Those of a light and a name, by bounces.
+Rows rows_of(const BenchmarkReport& report, const std::string& light, const std::string& name) {
+  Rows rows;
+  for (const RepresentationSpeed& r : report.representations) {
+    if (r.light == light && r.name == name) rows.push_back(&r);
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto* a, const auto* b) { return a->bounces < b->bounces; });
+  return rows;
+}
+
+Chart chart_of(const BenchmarkReport& report, const std::string& light,
+               const std::vector<std::string>& names) {
+  Chart chart;
+  chart.title = "Representations, 1 bounce and more; light: " + light;
+  chart.description = chart.title + ". Mean CIEDE2000 against nanoseconds a path.";
+  chart.x_label = "nanoseconds a path, one thread";
+  chart.y_label = "CIEDE2000, mean";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ChartSeries series;
+    series.name = names[i];
+    series.style = static_cast<int>(i) + 1;
+    series.line = true;
+    for (const RepresentationSpeed* r : rows_of(report, light, names[i])) {
+      ChartMark mark;
+      mark.x = r->nanoseconds;
+      mark.y = r->error.mean;
+      mark.number = fmt::format("{}", r->bounces);
+      mark.title = fmt::format("{}, {} bounce{}: {} ns, CIEDE2000 {} mean, {} at most", r->name, r->bounces,
+                               r->bounces == 1 ? "" : "s", number(r->nanoseconds), number(r->error.mean),
+                               number(r->error.maximum));
+      series.marks.push_back(std::move(mark));
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+/// The errors alone, a column for each number of bounces: what a glance is for.
+std::string overview(const BenchmarkReport& report, const std::string& light,
+                     const std::vector<std::string>& names) {
+  std::set<int> bounces;
+  for (const RepresentationSpeed& r : report.representations) {
+    if (r.light == light) bounces.insert(r.bounces);
+  }
+  std::vector<Table::Column> columns = {{"representation", true}};
+  for (const int b : bounces) columns.push_back({fmt::format("{} bounce{}", b, b == 1 ? "" : "s")});
+  Table table(light + ": CIEDE2000, mean, after so many bounces", columns);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Rows rows = rows_of(report, light, names[i]);
+    if (rows.empty()) continue;
+    std::vector<Html> cells = {{mark_in_text(static_cast<int>(i) + 1).code + " " + escaped(names[i])}};
+    for (const int b : bounces) {
+      const auto found =
+          std::find_if(rows.begin(), rows.end(), [&](const auto* r) { return r->bounces == b; });
+      cells.push_back(html(found == rows.end() ? kDash : number((*found)->error.mean)));
+    }
+    table.row(cells);
+  }
+  return table.code();
+}
+
+std::string details(const BenchmarkReport& report, const std::string& light,
+                    const std::vector<std::string>& names) {
+  Table table(light + ": every measurement. ns: a path, one thread; mean, 95 %, max: CIEDE2000",
+              {{"representation", true},
+               {"bounces"},
+               {"ns"},
+               {"mean"},
+               {"95 %"},
+               {"max"},
+               {"spread"},
+               {"coefficients"}});
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (const RepresentationSpeed* r : rows_of(report, light, names[i])) {
+      table.row({{mark_in_text(static_cast<int>(i) + 1).code + " " + escaped(r->name)},
+                 html(fmt::format("{}", r->bounces)),
+                 html(number(r->nanoseconds)),
+                 html(number(r->error.mean)),
+                 html(number(r->error.percentile95)),
+                 html(number(r->error.maximum)),
+                 html("±" + percent(r->spread)),
+                 html(fmt::format("{}", r->coefficients))});
+      ++count;
+    }
+  }
+  return fmt::format("<details><summary>Table: all {} measurements</summary>\n{}</details>\n", count,
+                     table.code());
+}
+
+}  // namespace
+
+Section representation_section(const BenchmarkReport& report) {
+  Section section{"representations", "Representations", ""};
+  if (report.representations.empty()) return section;
+  const auto names = distinct(report.representations, [](const auto& r) { return r.name; });
+  section.code =
+      "<section id=\"representations\">\n<h2>Representations of light and materials</h2>\n"
+      "<p>A path meets a light, then one material a bounce, and ends as a colour: its products and its "
+      "colour are "
+      "timed, and the colour is compared with that of the same path computed from the spectra themselves. "
+      "The "
+      "number beside a mark is that of the bounces.</p>\n";
+  for (const std::string& light : distinct(report.representations, [](const auto& r) { return r.light; })) {
+    const bool spiky = std::any_of(report.representations.begin(), report.representations.end(),
+                                   [&](const auto& r) { return r.light == light && r.spiky; });
+    const Chart chart = chart_of(report, light, names);
+    section.code += fmt::format("<section class=\"light\">\n<h3>{}{}</h3>\n", escaped(light),
+                                spiky ? " <span class=\"badge\">has lines</span>" : "");
+    const std::string wide = svg_chart(chart, ChartForm::kWide);
+    if (!wide.empty()) {
+      section.code += fmt::format(
+          "<figure>\n<figcaption>{}. Lower and further left is better.</figcaption>\n{}{}"
+          "</figure>\n",
+          escaped(chart.title), wide, svg_chart(chart, ChartForm::kNarrow));
+    }
+    section.code += overview(report, light, names) + details(report, light, names) + "</section>\n";
+  }
+  section.code += "</section>\n";
+  return section;
+}
+
+}  // namespace spectile::report

@@ -1,0 +1,230 @@
+// The sections of operations' speed, the machine's limits, and the gain of several threads.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "bench/report/sections.hpp"
+#include "bench/report/table.hpp"
+
+namespace spectile::report {
+namespace {
+
+constexpr std::array kLevels = {MemoryLevel::kCache, MemoryLevel::kMemory};
+
+int rank_of(const BenchmarkMachine& machine, const std::string& isa) {
+  return static_cast<int>(std::find(machine.isas.begin(), machine.isas.end(), isa) - machine.isas.begin());
+}
+
+/// The operation as most will run it: with the best instruction set, on the fewest threads measured.
+std::vector<const OperationSpeed*> main_rows(const BenchmarkReport& report, MemoryLevel level) {
+  std::vector<const OperationSpeed*> rows;
+  const auto known = [&](const OperationSpeed& o) {
+    const int rank = rank_of(report.machine, o.isa);
+    return rank == static_cast<int>(report.machine.isas.size()) ? -1 : rank;
+  };
+  for (const OperationSpeed& o : report.operations) {
+    if (o.level != level) continue;
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const OperationSpeed* r) {
+      return r->group == o.group && r->name == o.name;
+    });
+    if (same == rows.end()) {
+      rows.push_back(&o);
+    } else if (o.threads < (*same)->threads || (o.threads == (*same)->threads && known(o) > known(**same))) {
+      *same = &o;
+    }
+  }
+  return rows;
+}
+
+/// The limit that an operation is held against, with its value where it is one that was measured.
+std::string limit_in_words(const BenchmarkReport& report, const OperationSpeed& o) {
+  for (const MachineLimit& l : report.limits) {
+    if (l.isa != o.isa || l.threads != o.threads || l.level != o.level) continue;
+    if (o.limit == "load") return "load, " + with_prefix(l.load, "B/s");
+    if (o.limit == "store") return "store, " + with_prefix(l.store, "B/s");
+    if (o.limit == "stream") return "stream, " + with_prefix(l.stream, "B/s");
+    if (o.limit == "copy") return "copy, " + with_prefix(l.copy, "B/s");
+    if (o.limit == "multiply-add") return "multiply-add, " + with_prefix(l.multiply_add, "op/s");
+  }
+  return o.limit;
+}
+
+Html fraction_cell(double fraction) {
+  if (!std::isfinite(fraction)) return html(kDash);
+  return {
+      fmt::format("<span class=\"fraction\"><span class=\"bar\" aria-hidden=\"true\"><i "
+                  "style=\"width:{:.1f}%\"></i></span> <span class=\"share\">{}</span></span>",
+                  100 * std::clamp(fraction, 0.0, 1.0), percent(fraction))};
+}
+
+/// What binds it, and why its limit is not reached.
+Html limit_cell(const BenchmarkReport& report, const OperationSpeed& o) {
+  return {escaped(limit_in_words(report, o)) +
+          (o.note.empty() ? "" : " <small>" + escaped(o.note) + "</small>")};
+}
+
+std::vector<Html> cells_of(const BenchmarkReport& report, const OperationSpeed& o, bool full) {
+  // Written so that an error that is no number is beyond.
+  const bool beyond = !(o.error <= o.bound);
+  std::vector<Html> cells = {html(o.name)};
+  if (full) cells.insert(cells.end(), {html(o.isa), html(fmt::format("{}", o.threads))});
+  cells.insert(cells.end(), {html(with_prefix(o.items_per_second, o.item + "s/s")),
+                             fraction_cell(o.fraction),
+                             {escaped(quantity(o.error, o.error_unit)) +
+                              (beyond ? " <span class=\"badge bad\">beyond</span>" : "")},
+                             html(o.bound == 0 ? "exact" : quantity(o.bound, o.error_unit)),
+                             html(with_prefix(o.bytes_per_second, "B/s")),
+                             html("±" + percent(o.spread)),
+                             limit_cell(report, o)});
+  return cells;
+}
+
+Table operation_table(const BenchmarkReport& report, const std::vector<const OperationSpeed*>& rows,
+                      const std::string& caption, bool full) {
+  std::vector<Table::Column> columns = {{"operation", true}};
+  if (full) columns.insert(columns.end(), {{"ISA", true}, {"threads"}});
+  columns.insert(columns.end(), {{"items/s"},
+                                 {"of its limit"},
+                                 {"error"},
+                                 {"bound"},
+                                 {"bytes/s"},
+                                 {"spread"},
+                                 {"what binds it", true}});
+  Table table(caption, columns);
+  for (const std::string& group : distinct(rows, [](const OperationSpeed* o) { return o->group; })) {
+    table.group(group);
+    for (const OperationSpeed* o : rows) {
+      if (o->group == group) table.row(cells_of(report, *o, full));
+    }
+  }
+  return table;
+}
+
+/// "avx512, 1 thread" of rows that agree in it; where they do not, in words.
+std::string how_measured(const std::vector<const OperationSpeed*>& rows) {
+  const bool same = std::all_of(rows.begin(), rows.end(), [&](const OperationSpeed* o) {
+    return o->isa == rows.front()->isa && o->threads == rows.front()->threads;
+  });
+  if (!same) return "the best instruction set of each, fewest threads";
+  return fmt::format("{}, {} thread{}", rows.front()->isa, rows.front()->threads,
+                     rows.front()->threads == 1 ? "" : "s");
+}
+
+std::string level_part(const BenchmarkReport& report, MemoryLevel level) {
+  std::vector<const OperationSpeed*> all;
+  for (const OperationSpeed& o : report.operations) {
+    if (o.level == level) all.push_back(&o);
+  }
+  if (all.empty()) return {};
+  const auto main = main_rows(report, level);
+  std::string out =
+      fmt::format("<h3>In {}</h3>\n{}", escaped(name_of(level)),
+                  operation_table(report, main,
+                                  "In " + name_of(level) + ": every operation, " + how_measured(main), false)
+                      .code());
+  if (all.size() > main.size()) {
+    out += fmt::format(
+        "<details><summary>Every instruction set and number of threads: {} rows</summary>\n{}</details>\n",
+        all.size(),
+        operation_table(report, all, "In " + name_of(level) + ": every measurement", true).code());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string name_of(MemoryLevel level) {
+  return level == MemoryLevel::kCache ? "second-level cache" : "memory";
+}
+
+Section operation_section(const BenchmarkReport& report) {
+  Section section{"operations", "Operations", ""};
+  if (report.operations.empty()) return section;
+  section.code =
+      "<section id=\"operations\">\n<h2>Operations against the machine's limits</h2>\n"
+      "<p>The bar is the share of the limit that binds the operation: how fast this machine loads, stores, "
+      "copies, or "
+      "multiplies and adds with nothing else to do, measured in the same run. A share above 100 % beats the "
+      "plain loop that the limit was measured with. Bytes are those that an operation must "
+      "read and write. Errors are against double precision; u is 2<sup>−24</sup> of the sum of "
+      "magnitudes.</p>\n";
+  for (const MemoryLevel level : kLevels) section.code += level_part(report, level);
+  section.code += "</section>\n";
+  return section;
+}
+
+Section limit_section(const BenchmarkReport& report) {
+  Section section{"limits", "Machine limits", ""};
+  if (report.limits.empty()) return section;
+  Table table("What the machine can do with nothing else to do; medians", {{"where, ISA", true},
+                                                                           {"threads"},
+                                                                           {"load"},
+                                                                           {"store"},
+                                                                           {"stream"},
+                                                                           {"copy"},
+                                                                           {"multiply-add"},
+                                                                           {"fused"},
+                                                                           {"divide"},
+                                                                           {"spread"}});
+  for (const MemoryLevel level : kLevels) {
+    bool first = true;
+    for (const MachineLimit& l : report.limits) {
+      if (l.level != level) continue;
+      if (first) table.group(name_of(level));
+      first = false;
+      table.row({html(l.isa), html(fmt::format("{}", l.threads)), html(with_prefix(l.load, "B/s")),
+                 html(with_prefix(l.store, "B/s")), html(with_prefix(l.stream, "B/s")),
+                 html(with_prefix(l.copy, "B/s")), html(with_prefix(l.multiply_add, "op/s")),
+                 html(with_prefix(l.fused_multiply_add, "op/s")), html(with_prefix(l.divide, "op/s")),
+                 html("±" + percent(l.spread))});
+    }
+  }
+  section.code = fmt::format(
+      "<section id=\"limits\">\n<h2>The machine's limits</h2>\n"
+      "<p>Load: bytes read. Store: written by ordinary stores. Stream: written round the caches. Copy: bytes "
+      "read and "
+      "written, together. Multiply-add: float products and sums, rounded one by one, each counted. Fused: "
+      "each fused "
+      "multiply-add counted once. Divide: float quotients.</p>\n{}</section>\n",
+      table.code());
+  return section;
+}
+
+Section scaling_section(const BenchmarkReport& report) {
+  Section section{"threads", "Threads", ""};
+  if (report.scaling.empty()) return section;
+  std::set<int> threads;
+  for (const ThreadScaling& s : report.scaling) threads.insert(s.threads);
+  std::vector<Table::Column> columns = {{"where, what", true}};
+  for (const int t : threads) columns.push_back({fmt::format("{} thread{}", t, t == 1 ? "" : "s")});
+  Table table("Speed-up over one thread, and in brackets that of the machine's own limit", columns);
+  const auto names = distinct(report.scaling, [](const auto& s) { return s.name; });
+  for (const MemoryLevel level : kLevels) {
+    bool first = true;
+    for (const std::string& name : names) {
+      std::vector<Html> cells = {html(name)};
+      bool any = false;
+      for (const int t : threads) {
+        const auto found = std::find_if(report.scaling.begin(), report.scaling.end(), [&](const auto& s) {
+          return s.name == name && s.level == level && s.threads == t;
+        });
+        const bool there = found != report.scaling.end();
+        any = any || there;
+        cells.push_back(
+            html(there ? fmt::format("{} ({})", number(found->speed_up), number(found->limit)) : kDash));
+      }
+      if (!any) continue;
+      if (first) table.group(name_of(level));
+      first = false;
+      table.row(cells);
+    }
+  }
+  section.code =
+      fmt::format("<section id=\"threads\">\n<h2>Several threads</h2>\n{}</section>\n", table.code());
+  return section;
+}
+
+}  // namespace spectile::report

@@ -1,0 +1,33 @@
+// A table of a page: caption, heads, groups of rows; wide ones scroll in a box of their own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/report/text.hpp"
+
+namespace spectile::report {
+
+class Table {
+ public:
+  struct Column {
+    std::string head;
+    bool words = false;  ///< set to the left; numbers are set to the right
+  };
+
+  Table(std::string caption, std::vector<Column> columns);
+
+  /// Begins a group of rows with a head of its own.
+  void group(const std::string& name);
+  /// One cell a column; the first is the row's head. `kind`: its class, of the style sheet.
+  void row(const std::vector<Html>& cells, const std::string& kind = "");
+
+  std::string code() const;
+
+ private:
+  std::string caption_;
+  std::vector<Column> columns_;
+  std::string rows_;
+};
+
+}  // namespace spectile::report

@@ -1,0 +1,173 @@
+// Benchmark: what this machine can do, how near each operation comes to it, what each way of doing a job
+// costs in time and in error, and how far the numbers hold.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <spectile/plan/plan.hpp>
+#include <spectile/result.hpp>
+#include <string>
+#include <vector>
+
+namespace spectile {
+
+/// What was measured where. Units: bytes.
+struct BenchmarkMachine {
+  std::string processor;                 ///< as the operating system names it, or its architecture
+  std::string system;                    ///< operating system and its release
+  std::string compiler;                  ///< of the library
+  std::string version;                   ///< of spectile
+  std::string date;                      ///< of the run, UTC, ISO 8601
+  int cores = 1;                         ///< that the process may use
+  std::uint64_t second_level_cache = 0;  ///< 0 where the system does not say
+  std::uint64_t last_level_cache = 0;
+  std::uint64_t cache_bytes = 0;   ///< worked on for what is said of the second-level cache, each thread
+  std::uint64_t memory_bytes = 0;  ///< and of memory, all threads together
+  std::vector<std::string> isas;   ///< that run here, the slowest first
+};
+
+/// Where an operation's numbers are.
+enum class MemoryLevel {
+  kCache,   ///< second-level cache
+  kMemory,  ///< DRAM
+};
+
+/// What the machine can do with vectors of one instruction set and nothing else to do.
+/// Units: bytes and operations a second; medians.
+struct MachineLimit {
+  std::string isa;
+  int threads = 1;
+  MemoryLevel level = MemoryLevel::kCache;
+  double load = 0;                ///< bytes read
+  double store = 0;               ///< bytes written by ordinary stores
+  double stream = 0;              ///< bytes written round the caches
+  double copy = 0;                ///< bytes read and written, together
+  double multiply_add = 0;        ///< float products and sums, rounded one by one; each counts
+  double fused_multiply_add = 0;  ///< fused ones; each counts once. Kernels' strict formulas have few
+  double divide = 0;              ///< float quotients, each counts
+  double spread = 0;  ///< largest of these: half the range of the middle half of the runs, over the median
+};
+
+/// One operation's speed.
+struct OperationSpeed {
+  std::string group;  ///< "arithmetic", "colorimetry", ...
+  std::string name;
+  std::string isa;
+  int threads = 1;
+  MemoryLevel level = MemoryLevel::kCache;
+  std::string item = "lane";  ///< what is counted: "sample", "lane", "colour"
+  double items_per_second = 0;
+  double bytes_per_second = 0;  ///< that it must read and write
+  double spread = 0;
+  std::string limit;       ///< that binds it: "load", "store", "stream", "copy", "multiply-add", or in words
+  double fraction = 0;     ///< of that limit
+  double error = 0;        ///< against double, in units of `error_unit`
+  double bound = 0;        ///< stated for it, in the same units
+  std::string error_unit;  ///< "u": 2^-24 of the sum of magnitudes, ...
+  std::string note;        ///< what binds it, where its limit is not reached
+};
+
+/// Colour differences from the truth. Units: CIEDE2000.
+struct ColorError {
+  double mean = 0;
+  double percentile95 = 0;
+  double maximum = 0;
+};
+
+/// One way of doing a job under a light.
+struct WaySpeed {
+  std::string job;  ///< "RGB texture, under a light, to a colour", ...
+  std::string light;
+  bool spiky = false;  ///< the light has lines
+  std::string family;  ///< of ways that are drawn alike: "textbook", "smits-exact", "planned bands", ...
+  std::string name;
+  int bands = 0;           ///< 0 where there are none
+  double nanoseconds = 0;  ///< a pixel or sample, one thread
+  double spread = 0;
+  std::uint64_t bytes = 0;  ///< that the pixel takes in memory or in a file, 0 where nothing is stored
+  ColorError error;
+  bool frontier = false;  ///< no other way is as fast and as accurate, by mean error
+};
+
+/// One representation of light and materials in a scene of some bounces.
+struct RepresentationSpeed {
+  std::string light;
+  bool spiky = false;
+  std::string name;
+  int coefficients = 0;  ///< a lane
+  int bounces = 1;
+  double nanoseconds = 0;  ///< a path: its products and its colour
+  double spread = 0;
+  ColorError error;
+};
+
+/// How far an operation's numbers hold.
+struct StressResult {
+  std::string operation;
+  std::string inputs;  ///< what was tried, in words
+  std::string unit;    ///< of bound and worst: "u", "ULP", "CIEDE2000", "relative"
+  double bound = 0;    ///< 0: exactly the documented result
+  double worst = 0;    ///< found
+  std::uint64_t cases = 0;
+  std::uint64_t beyond = 0;  ///< cases beyond the bound
+  std::string worst_case;    ///< the input with the largest error, in words
+};
+
+/// The speed-up of several threads over one.
+struct ThreadScaling {
+  std::string name;
+  MemoryLevel level = MemoryLevel::kCache;
+  int threads = 1;
+  double speed_up = 1;
+  double limit = 1;  ///< that of the machine's own limit
+};
+
+/// What to take for an error, or a time, that is given.
+struct BenchmarkAdvice {
+  std::string job;
+  std::string light;
+  std::string sentence;
+};
+
+struct BenchmarkReport {
+  BenchmarkMachine machine;
+  double seconds = 0;  ///< it took
+  /// Parts of the run in which other work took the processor, in words; empty where it was left alone.
+  std::vector<std::string> disturbed;
+  std::vector<MachineLimit> limits;
+  std::vector<OperationSpeed> operations;
+  std::vector<ThreadScaling> scaling;
+  std::vector<WaySpeed> ways;
+  std::vector<RepresentationSpeed> representations;
+  std::vector<StressResult> stress;
+  std::vector<BenchmarkAdvice> advice;
+};
+
+struct BenchmarkOptions {
+  bool quick = false;                  ///< half a minute rather than minutes
+  bool memory = true;                  ///< also of what lies in memory, not in the caches
+  bool speed = true;                   ///< limits, operations, ways, representations
+  bool stress = false;                 ///< also the long form of the numbers' stress test
+  std::vector<int> threads;            ///< 1, 2, 4 ... up to the cores where empty
+  std::vector<std::string> isas;       ///< every one that runs here where empty
+  std::vector<std::string> lights;     ///< by name; four smooth and spiky ones where empty
+  std::vector<std::string> only;       ///< operations whose name contains one of these; all where empty
+  std::vector<Spectrum> reflectances;  ///< errors are over these; the 24 of the ColorChecker where empty
+  std::uint64_t seed = 1;              ///< of the inputs
+  /// Called before each part; false ends the run with kCancelled.
+  std::function<bool(const std::string& part, double done)> progress;
+};
+
+/// Runs the benchmark. One thing at a time, medians of interleaved runs. Errors: kBadArgument for lights,
+/// ISAs or threads that there are not; kOutOfMemory; kCancelled.
+Result<BenchmarkReport> run_benchmark(const BenchmarkOptions& options = {});
+
+/// The report for machines. Numbers that are not finite do not occur.
+std::string benchmark_to_json(const BenchmarkReport& report);
+/// The report as one page of HTML that needs nothing else: no network, no script.
+std::string benchmark_to_html(const BenchmarkReport& report);
+/// Error against time of one job under one light, as SVG: every way, the frontier as a line. Empty where the
+/// report has none of them.
+std::string benchmark_plot(const BenchmarkReport& report, const std::string& job, const std::string& light);
+
+}  // namespace spectile

@@ -1,0 +1,167 @@
+// SampledSpectra: a batch of sampled spectra as structure-of-arrays lanes in blocks of 64, and its views.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/result.hpp>
+
+namespace spectile {
+
+/// Lanes in one block; a block is [band][kLanesPerBlock] floats.
+inline constexpr std::size_t kLanesPerBlock = 64;
+
+/// Blocks needed for `lanes` lanes.
+constexpr std::size_t blocks_for(std::size_t lanes) noexcept {
+  return (lanes + kLanesPerBlock - 1) / kLanesPerBlock;
+}
+
+/// Read-only view of a batch. Shapes: data [block][band][64], 64-byte aligned, the last block padded.
+struct SampledSpectraView {
+  const float* data = nullptr;
+  std::size_t lanes = 0;
+  Bands bands;
+  std::size_t blocks() const noexcept { return blocks_for(lanes); }
+  std::size_t floats() const noexcept { return blocks() * bands.count() * kLanesPerBlock; }
+  float at(std::size_t lane, std::size_t band) const noexcept {
+    return data[((lane / kLanesPerBlock) * bands.count() + band) * kLanesPerBlock + lane % kLanesPerBlock];
+  }
+};
+
+/// Writable view of a batch; shapes as in SampledSpectraView.
+struct SampledSpectraSpan {
+  float* data = nullptr;
+  std::size_t lanes = 0;
+  Bands bands;
+  operator SampledSpectraView() const { return {data, lanes, bands}; }
+};
+
+namespace detail {
+struct PooledFree {
+  std::size_t bytes = 0;
+  void operator()(float* p) const noexcept;
+};
+}  // namespace detail
+
+/// Owner of 64-byte aligned, pooled float memory; freed memory is kept for the next owner of that size.
+class FloatBuffer {
+ public:
+  FloatBuffer() = default;
+  /// Memory for `count` floats, not initialised. Errors: kOutOfMemory.
+  static Result<FloatBuffer> create(std::size_t count);
+  float* data() noexcept { return memory_.get(); }
+  const float* data() const noexcept { return memory_.get(); }
+  std::size_t size() const noexcept { return count_; }
+
+ private:
+  std::unique_ptr<float[], detail::PooledFree> memory_;
+  std::size_t count_ = 0;
+};
+
+/// Gives pooled memory that nobody uses back to the operating system.
+void release_pooled_memory() noexcept;
+
+/// An owning batch of `lanes` sampled spectra on common bands.
+class SampledSpectra {
+ public:
+  /// A batch with every sample zero, padding included. Errors: kOutOfMemory.
+  static Result<SampledSpectra> create(const Bands& bands, std::size_t lanes);
+  /// A batch with every sample equal to `value`. Errors: kOutOfMemory.
+  static Result<SampledSpectra> constant(const Bands& bands, std::size_t lanes, float value);
+  /// A batch with every lane the same spectrum, one value a band.
+  /// Errors: kBandsMismatch when the count of values differs from that of bands; kOutOfMemory.
+  static Result<SampledSpectra> broadcast(const Bands& bands, std::size_t lanes,
+                                          std::span<const float> values);
+
+  std::size_t lanes() const noexcept { return lanes_; }
+  std::size_t blocks() const noexcept { return blocks_for(lanes_); }
+  const Bands& bands() const noexcept { return bands_; }
+  SampledSpectraSpan span() { return {buffer_.data(), lanes_, bands_}; }
+  SampledSpectraView view() const { return {buffer_.data(), lanes_, bands_}; }
+
+  /// One sample; no bounds check.
+  float at(std::size_t lane, std::size_t band) const noexcept { return buffer_.data()[index(lane, band)]; }
+  void set(std::size_t lane, std::size_t band, float v) noexcept { buffer_.data()[index(lane, band)] = v; }
+
+ private:
+  std::size_t index(std::size_t lane, std::size_t band) const noexcept {
+    return ((lane / kLanesPerBlock) * bands_.count() + band) * kLanesPerBlock + lane % kLanesPerBlock;
+  }
+  FloatBuffer buffer_;
+  std::size_t lanes_ = 0;
+  Bands bands_;
+};
+
+/// Read-only view of one float a lane, padded to whole blocks. Shapes: data [lanes rounded up to 64], 64-byte
+/// aligned.
+struct LanesView {
+  const float* data = nullptr;
+  std::size_t lanes = 0;
+};
+
+/// Writable view of one float a lane; shapes as in LanesView.
+struct LanesSpan {
+  float* data = nullptr;
+  std::size_t lanes = 0;
+  operator LanesView() const { return {data, lanes}; }
+};
+
+/// Read-only view of three colour components a lane. Shapes: each [lanes rounded up to 64], 64-byte aligned.
+struct ColorView {
+  const float* c[3] = {nullptr, nullptr, nullptr};
+  std::size_t lanes = 0;
+};
+
+/// Writable view of three colour components a lane; shapes as in ColorView.
+struct ColorSpan {
+  float* c[3] = {nullptr, nullptr, nullptr};
+  std::size_t lanes = 0;
+  operator ColorView() const { return {{c[0], c[1], c[2]}, lanes}; }
+};
+
+/// Owner of one float a lane (a luminance, a minimum), zero at first.
+class ScalarLanes {
+ public:
+  /// Errors: kOutOfMemory.
+  static Result<ScalarLanes> create(std::size_t lanes);
+  LanesSpan span() noexcept { return {buffer_.data(), lanes_}; }
+  LanesView view() const noexcept { return {buffer_.data(), lanes_}; }
+  float& operator[](std::size_t i) noexcept { return buffer_.data()[i]; }
+  float operator[](std::size_t i) const noexcept { return buffer_.data()[i]; }
+  std::size_t lanes() const noexcept { return lanes_; }
+
+ private:
+  FloatBuffer buffer_;
+  std::size_t lanes_ = 0;
+};
+
+/// Owner of three colour components a lane (RGB or XYZ), zero at first.
+class ColorLanes {
+ public:
+  /// Errors: kOutOfMemory.
+  static Result<ColorLanes> create(std::size_t lanes);
+  ColorSpan span() noexcept;
+  ColorView view() const noexcept;
+  float& at(std::size_t lane, std::size_t component) noexcept {
+    return buffer_.data()[component * stride_ + lane];
+  }
+  float at(std::size_t lane, std::size_t component) const noexcept {
+    return buffer_.data()[component * stride_ + lane];
+  }
+  std::size_t lanes() const noexcept { return lanes_; }
+
+ private:
+  FloatBuffer buffer_;
+  std::size_t lanes_ = 0;
+  std::size_t stride_ = 0;
+};
+
+/// How a batch operation is run. The result never depends on it.
+struct Execution {
+  int threads = 0;                 ///< 0: every core that the process may use.
+  std::size_t tile_lanes = 16384;  ///< Lanes a task, rounded up to whole blocks; 1 to 2^31.
+};
+
+}  // namespace spectile

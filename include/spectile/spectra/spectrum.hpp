@@ -1,0 +1,270 @@
+// Spectrum: a continuous spectral distribution of any kind as one value type, with exact integrals.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/spectra/measured_spectrum.hpp>
+#include <spectile/result.hpp>
+#include <spectile/upsampling/upsample.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace spectile {
+
+/// The range over which distributions are tabulated and integrated where none is given. Units: nm. Source:
+/// CIE 015:2018, range of the standard observers.
+inline constexpr double kFirstVisibleNm = 360;
+inline constexpr double kLastVisibleNm = 830;
+
+/// What all distributions have in common, on top of operator(), integral(), max_value() and to_text().
+template <class Distribution>
+class SpectrumOperations {
+ public:
+  /// Values at any wavelengths. Units: nm.
+  std::vector<double> sample(std::span<const double> wavelengths_nm) const {
+    std::vector<double> out;
+    out.reserve(wavelengths_nm.size());
+    for (const double nm : wavelengths_nm) out.push_back(self()(nm));
+    return out;
+  }
+  /// Averages over each band: the integral over it, divided by its width. Shapes: one value a band.
+  std::vector<float> average_over(const Bands& bands) const {
+    std::vector<float> out;
+    out.reserve(bands.count());
+    for (const Band& band : bands.list()) {
+      out.push_back(static_cast<float>(self().integral(band.lower_nm, band.upper_nm) / band.width_nm()));
+    }
+    return out;
+  }
+
+ private:
+  const Distribution& self() const { return static_cast<const Distribution&>(*this); }
+};
+
+/// The same value at every wavelength.
+class ConstantSpectrum : public SpectrumOperations<ConstantSpectrum> {
+ public:
+  explicit ConstantSpectrum(double value = 0) : value_(value) {}
+  double value() const noexcept { return value_; }
+  double operator()(double /*lambda_nm*/) const noexcept { return value_; }
+  double max_value() const noexcept { return value_; }
+  /// Exact; 0 where last is not above first.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+
+ private:
+  double value_;
+};
+
+/// Linear between samples at irregular wavelengths and 0 outside them: what a lamp emits, a sensor's
+/// response. (A MeasuredSpectrum is the same with constant ends: what averaging a reflectance over bands
+/// assumes where nobody measured.)
+class PiecewiseLinearSpectrum : public SpectrumOperations<PiecewiseLinearSpectrum> {
+ public:
+  /// Errors and order as for MeasuredSpectrum::from_samples: sorted, and two samples at one wavelength are a
+  /// step there.
+  static Result<PiecewiseLinearSpectrum> from_samples(std::span<const double> wavelengths_nm,
+                                                      std::span<const double> values);
+  /// The samples of a measured spectrum, without its constant ends.
+  explicit PiecewiseLinearSpectrum(MeasuredSpectrum samples);
+
+  /// At a step, the value on its right; at the last sample, that sample.
+  double operator()(double lambda_nm) const noexcept;
+  /// The largest sample, but not below 0, which it is outside.
+  double max_value() const noexcept;
+  /// Exact; 0 where last is not above first.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+
+  PiecewiseLinearSpectrum scaled(double factor) const;
+  /// The same samples with constant ends.
+  const MeasuredSpectrum& measured() const noexcept { return *samples_; }
+  std::span<const double> wavelengths_nm() const noexcept { return samples_->wavelengths_nm(); }
+  std::span<const double> values() const noexcept { return samples_->values(); }
+
+ private:
+  std::shared_ptr<const MeasuredSpectrum> samples_;
+};
+
+class Spectrum;
+
+/// A table at every nanometre, linear in between and 0 outside: the quickest to look up.
+class DenselySampledSpectrum : public SpectrumOperations<DenselySampledSpectrum> {
+ public:
+  /// Tabulates a spectrum at whole nanometres. Units: nm. Errors: kBadArgument where last is not above first
+  /// or the range holds more than 100000 nm.
+  static Result<DenselySampledSpectrum> from(const Spectrum& spectrum,
+                                             int first_nm = static_cast<int>(kFirstVisibleNm),
+                                             int last_nm = static_cast<int>(kLastVisibleNm));
+  /// From one value for every nanometre from first_nm on. Errors: kBadArgument for fewer than two values or
+  /// one that is not finite.
+  static Result<DenselySampledSpectrum> from_values(int first_nm, std::vector<double> values);
+
+  double operator()(double lambda_nm) const noexcept;
+  /// Not below 0, which it is outside.
+  double max_value() const noexcept;
+  /// Exact; 0 where last is not above first.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+  int first_nm() const noexcept { return first_nm_; }
+  int last_nm() const noexcept { return first_nm_ + static_cast<int>(values_->size()) - 1; }
+  std::span<const double> values() const noexcept { return *values_; }
+
+ private:
+  DenselySampledSpectrum() = default;
+  int first_nm_ = 0;
+  std::shared_ptr<const std::vector<double>> values_;
+};
+
+/// Thermal radiation of a black body.
+/// Source: Planck's law; constants of the SI (2019), exact: h, c, k.
+class BlackbodySpectrum : public SpectrumOperations<BlackbodySpectrum> {
+ public:
+  /// How it is scaled.
+  enum class Scale {
+    kAbsolute,    ///< W/(m^2 sr nm)
+    kNormalized,  ///< 1 at the wavelength of its maximum
+  };
+  /// Units: K. Errors: kBadArgument for a temperature that is not finite, below 1 or above 1e9.
+  static Result<BlackbodySpectrum> create(double temperature_k, Scale scale = Scale::kAbsolute);
+
+  double temperature_k() const noexcept { return temperature_k_; }
+  Scale scale() const noexcept { return scale_; }
+  /// 0 at wavelengths not above 0. From 1e-3 to 1e15 nm the relative error is below 1e-13, or 2^-51 h c /
+  /// (lambda k T) where that is more: far below the peak, where there is next to nothing.
+  double operator()(double lambda_nm) const noexcept;
+  /// At the wavelength of Wien's displacement law, visible or not.
+  double max_value() const noexcept;
+  /// By series, to a relative 1e-11 within the range of double; `last_nm` may be infinite. Source: Widger,
+  /// Woodall, Integration of the Planck Blackbody Radiation Function, Bulletin of the American Meteorological
+  /// Society 57(10), 1976.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+
+ private:
+  BlackbodySpectrum() = default;
+  double temperature_k_ = 0;
+  Scale scale_ = Scale::kAbsolute;
+  double factor_ = 1;
+};
+
+/// A sum of Gaussians whose two halves may differ in width: analytic fits of observers, lasers, LEDs.
+class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
+ public:
+  /// amplitude * exp(-((lambda - mean) / sigma)^2 / 2), with the sigma of lambda's side. Units: nm.
+  struct Lobe {
+    double amplitude = 0;
+    double mean_nm = 0;
+    double sigma_left_nm = 1;
+    double sigma_right_nm = 1;
+  };
+  /// Errors: kBadArgument for no lobe, a number that is not finite, a sigma not above 0.
+  static Result<GaussianSumSpectrum> from_lobes(std::vector<Lobe> lobes);
+
+  double operator()(double lambda_nm) const noexcept;
+  /// The largest of its local maxima, found by search, to a relative 1e-6.
+  double max_value() const noexcept;
+  /// By the error function; `first_nm`, `last_nm` may be infinite.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+  std::span<const Lobe> lobes() const noexcept { return *lobes_; }
+
+ private:
+  GaussianSumSpectrum() = default;
+  std::shared_ptr<const std::vector<Lobe>> lobes_;
+};
+
+/// The spectrum that an upsampling method makes of an RGB colour, as it is between and beyond the centres of
+/// the method's bands: mixtures of basis spectra and a light's white are linear there, a sigmoid is itself;
+/// beyond the bands' outer centres all keep the value there.
+class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
+ public:
+  /// Errors: kBadArgument for a component that is not finite, and for colours that the method cannot make
+  /// (see limit_gamut).
+  static Result<UpsampledSpectrum> from_rgb(const Upsampler& upsampler, const std::array<double, 3>& rgb);
+
+  double operator()(double lambda_nm) const noexcept;
+  /// Over the range of its bands; a sigmoid times a light at every 0.1 nm.
+  double max_value() const noexcept;
+  /// Exact where it is linear; a sigmoid's by Gauss-Legendre quadrature to a relative 1e-9.
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+  Method method() const noexcept { return method_; }
+  Quantity quantity() const noexcept { return quantity_; }
+  const std::array<double, 3>& rgb() const noexcept { return rgb_; }
+  /// Whether it is a sigmoid: then coefficients(), scale() and light() are what makes it up.
+  bool is_sigmoid() const noexcept { return sigmoid_; }
+  const std::array<float, 3>& coefficients() const noexcept { return c_; }
+  float scale() const noexcept { return scale_; }
+  /// Samples at the bands' centres, with constant ends: of the mixture, or of the white that a sigmoid is
+  /// multiplied by (null where there is none).
+  const MeasuredSpectrum* table() const noexcept { return table_.get(); }
+  double first_nm() const noexcept { return first_nm_; }
+  double last_nm() const noexcept { return last_nm_; }
+
+ private:
+  UpsampledSpectrum() = default;
+  Method method_ = kDefaultMethod;
+  Quantity quantity_ = Quantity::kReflectance;
+  std::array<double, 3> rgb_{};
+  bool sigmoid_ = false;
+  std::array<float, 3> c_{};
+  float scale_ = 1;
+  double first_nm_ = 0;
+  double last_nm_ = 0;
+  std::shared_ptr<const MeasuredSpectrum> table_;
+};
+
+/// Any distribution. Cheap to copy.
+class Spectrum : public SpectrumOperations<Spectrum> {
+ public:
+  using Kind = std::variant<ConstantSpectrum, PiecewiseLinearSpectrum, DenselySampledSpectrum,
+                            BlackbodySpectrum, GaussianSumSpectrum, UpsampledSpectrum>;
+  template <class Distribution>
+  requires std::constructible_from<Kind, Distribution> Spectrum(Distribution distribution)
+      : kind_(std::move(distribution)) {}  // NOLINT(*-explicit-*)
+
+  /// Which distribution it is; std::visit it once, outside any loop.
+  const Kind& kind() const noexcept { return kind_; }
+  double operator()(double lambda_nm) const noexcept;
+  double max_value() const noexcept;
+  double integral(double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm) const noexcept;
+  /// One line that says what it is.
+  std::string to_text() const;
+
+ private:
+  Kind kind_;
+};
+
+/// Integral of the product of two spectra: exact where both are piecewise linear, else by Gauss-Legendre
+/// quadrature between their samples to a relative 1e-9 of the integral of the product's magnitude. Limits
+/// must be finite.
+double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFirstVisibleNm,
+                     double last_nm = kLastVisibleNm);
+
+/// The same of three spectra: a sensor's curve, a light, a reflectance.
+double inner_product(const Spectrum& a, const Spectrum& b, const Spectrum& c,
+                     double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm);
+
+/// A reflectance between 0 and 1 for an RGB colour between 0 and 1, by an upsampler of reflectances.
+/// Errors: kBadArgument for an upsampler of another quantity, and as UpsampledSpectrum::from_rgb.
+Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb);
+/// The same for what may exceed 1, by an upsampler of unbounded spectra.
+Result<UpsampledSpectrum> rgb_unbounded_spectrum(const Upsampler& upsampler,
+                                                 const std::array<double, 3>& rgb);
+/// The same for light, by an upsampler of illuminants: RGB 1, 1, 1 is the light that the upsampler is made
+/// for, with Y = 1.
+Result<UpsampledSpectrum> rgb_illuminant_spectrum(const Upsampler& upsampler,
+                                                  const std::array<double, 3>& rgb);
+
+/// Daylight of a correlated colour temperature, 300 to 830 nm, 100 at 560 nm.
+/// Units: K (the scale of 1968 and later: D65 is 6504 K). Errors: kBadArgument outside 4000 to 25000 K.
+/// Source: CIE 015:2018, 4.1.2: chromaticity, M1 and M2 rounded to three decimals, S0, S1, S2 at 5 nm.
+Result<PiecewiseLinearSpectrum> daylight_spectrum(double temperature_k);
+/// Its chromaticity (x, y). Errors and source as for daylight_spectrum().
+Result<std::array<double, 2>> daylight_chromaticity(double temperature_k);
+
+}  // namespace spectile

@@ -1,0 +1,49 @@
+// A texture's colour under another light, without its spectra.
+#pragma once
+
+#include <array>
+#include <span>
+#include <spectile/color/colorimetry.hpp>
+#include <spectile/result.hpp>
+#include <spectile/upsampling/upsample.hpp>
+#include <vector>
+
+namespace spectile {
+
+/// From a method's RGB to colour under a light.
+///
+/// For mixtures of bases the way there is linear in the weights of white, secondary and primary, so bands and
+/// light fold into a table of 3 x 7 (3 x 3 for mallett), whatever the bands. The sigmoid is not linear: its
+/// coefficients are found and its samples summed in registers.
+class Relighter {
+ public:
+  /// `under` projects the upsampler's bands, `to` takes its XYZ to the colour wanted:
+  /// Projector::xyz_to_srgb(), the identity, an adaptation. Errors: kBandsMismatch when both were made for
+  /// other bands; kBadArgument for an upsampler of light.
+  static Result<Relighter> create(const Upsampler& upsampler, const Projector& under, const Matrix3& to);
+
+  const Upsampler& upsampler() const noexcept { return *upsampler_; }
+  const Projector& projector() const noexcept { return *projector_; }
+  const Matrix3& matrix() const noexcept { return matrix_; }
+  /// Shapes: [3][8]: white, cyan, magenta, yellow, red, green, blue, 0. Empty for the sigmoid.
+  std::span<const float> table() const noexcept { return {table_.data(), table_.size()}; }
+  /// Largest distance of a component from upsample_srgb(), project() and transform() in turn, over the
+  /// largest component of the RGB, for RGB without negative components: rounding, and for smits and smits1999
+  /// the samples below 0 that the long way clamps. 0 for the sigmoid, whose bits are the same.
+  const std::array<double, 3>& bound() const noexcept { return bound_; }
+
+ private:
+  Relighter() = default;
+  const Upsampler* upsampler_ = nullptr;
+  const Projector* projector_ = nullptr;
+  Matrix3 matrix_{};
+  FloatBuffer table_;
+  std::array<double, 3> bound_{};
+};
+
+/// The colour of each lane. The relighter's upsampler and projector must still exist. Shapes: in, out three
+/// times [lanes]; they may be the same. Numbers: NaN and infinities as for upsample_srgb() and project().
+/// Errors: kSizeMismatch; kBadArgument for samples not aligned.
+Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& how = {});
+
+}  // namespace spectile

@@ -1,0 +1,194 @@
+// Projection to CIE XYZ, luminance, and XYZ to and from linear sRGB.
+#include <cmath>
+#include <spectile/color/colorimetry.hpp>
+
+#include "src/data/tables.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/spectra/planned_bands.hpp"
+#include "src/color/color_matrix.hpp"
+#include "src/lanes/shape.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+MeasuredSpectrum matching_function(const data::MatchingFunctions& observer, std::span<const double> values) {
+  // Zero beyond the tabulated range, as the standard's sums end there: a step at each end.
+  std::vector<double> wavelengths = {observer.first_nm};
+  std::vector<double> samples = {0.0};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    wavelengths.push_back(observer.first_nm + static_cast<double>(i) * observer.step_nm);
+    samples.push_back(values[i]);
+  }
+  wavelengths.push_back(wavelengths.back());
+  samples.push_back(0.0);
+  return *MeasuredSpectrum::from_samples(wavelengths, samples);
+}
+
+/// XYZ to sRGB with this white at RGB 1, 1, 1, or with the standard's where this one is far from it.
+Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
+  constexpr double kFar = 0.1;
+  const std::array<double, 3> scaled = {white[0] / white[1], 1.0, white[2] / white[1]};
+  const std::array<double, 3> rgb = times(xyz_to_srgb_matrix(), scaled);
+  for (const double v : rgb) {
+    if (!(std::abs(v - 1) <= kFar)) return xyz_to_srgb_matrix();
+  }
+  return inverse(rgb_to_xyz(kRec709, scaled));
+}
+
+/// A plan's weights: its sensor, times the emission of a light where there is one.
+Result<std::vector<std::array<double, 3>>> planned_weights(const Plan& plan, const MeasuredSpectrum* light,
+                                                           Observer observer) {
+  SPECTILE_TRY(check_observer(plan, observer));
+  std::vector<std::array<double, 3>> out = plan.sensor;
+  if (light == nullptr) return out;
+  const auto index = planned_light(plan, *light);
+  if (!index) return index.error();
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    for (double& v : out[b]) v *= plan.lights[*index].emission[b];
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light,
+                                        Observer observer) {
+  const data::MatchingFunctions& table = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
+  const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar),
+                                         matching_function(table, table.y_bar),
+                                         matching_function(table, table.z_bar)};
+  const MeasuredSpectrum d65 = *illuminant("D65");
+  std::array<double, 3> d65_white{};
+  Projector projector;
+  projector.bands_ = bands;
+  projector.observer_ = observer;
+  if (bands.plan() != nullptr) {
+    for (std::size_t k = 0; k < 3; ++k) d65_white[k] = product_integral(functions[k], d65, 0, 1000);
+    // A plan for D65 has its white on its own.
+    if (const auto own = planned_weights(*bands.plan(), &d65, observer)) {
+      d65_white = {};
+      for (const auto& w : *own) {
+        for (std::size_t k = 0; k < 3; ++k) d65_white[k] += w[k];
+      }
+    }
+    auto weights = planned_weights(*bands.plan(), light, observer);
+    if (!weights) return weights.error();
+    projector.weights_ = *std::move(weights);
+  }
+  double luminance = 0;
+  for (const auto& w : projector.weights_) luminance += w[1];
+  for (const Band& band : bands.plan() == nullptr ? bands.list() : std::span<const Band>()) {
+    std::array<double, 3> w{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      w[k] = light == nullptr ? functions[k].integral(band.lower_nm, band.upper_nm)
+                              : product_integral(functions[k], *light, band.lower_nm, band.upper_nm);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      d65_white[k] += light == nullptr ? w[k] * d65.integral(band.lower_nm, band.upper_nm) / band.width_nm()
+                                       : product_integral(functions[k], d65, band.lower_nm, band.upper_nm);
+    }
+    luminance += w[1];
+    projector.weights_.push_back(w);
+  }
+  if (!(luminance > 0)) {
+    return make_error(ErrorCode::kBadArgument, "bands {} hold no {} luminance", bands.description(),
+                      light == nullptr ? "visible" : "of the light's");
+  }
+  projector.xyz_to_srgb_ = white_keeping_srgb(d65_white);
+  for (auto& w : projector.weights_) {
+    for (double& v : w) v /= luminance;
+    for (const double v : w) projector.float_weights_.push_back(static_cast<float>(v));
+    projector.float_weights_.push_back(0.0F);
+    projector.luminance_weights_.push_back(static_cast<float>(w[1]));
+  }
+  return projector;
+}
+
+Result<Projector> Projector::emissive(const Bands& bands, Observer observer) {
+  return from_light(bands, nullptr, observer);
+}
+
+Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light,
+                                        Observer observer) {
+  return from_light(bands, &light, observer);
+}
+
+std::array<double, 3> Projector::white() const noexcept {
+  std::array<double, 3> sum{};
+  for (const auto& w : weights_) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += w[k];
+  }
+  return sum;
+}
+
+Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
+                     const Execution& how) {
+  SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_lanes(spectra.lanes, xyz.lanes));
+  SPECTILE_TRY(shape::aligned(spectra.data));
+  for (const float* plane : xyz.c) SPECTILE_TRY(shape::aligned(plane));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const std::size_t bands = spectra.bands.count();
+  tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    (*table)->project(xyz.c[0] + at, xyz.c[1] + at, xyz.c[2] + at, spectra.data + at * bands,
+                      projector.float_weights(), bands, count);
+  });
+  return {};
+}
+
+Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
+                       const Execution& how) {
+  SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_lanes(spectra.lanes, y.lanes));
+  SPECTILE_TRY(shape::aligned(spectra.data));
+  SPECTILE_TRY(shape::aligned(y.data));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const std::size_t bands = spectra.bands.count();
+  tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    (*table)->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands,
+                           count);
+  });
+  return {};
+}
+
+const Matrix3& srgb_to_xyz_matrix() {
+  // IEC 61966-2-1:1999: the primaries of ITU-R BT.709 and its D65 white.
+  static const Matrix3 matrix = rgb_to_xyz(kRec709);
+  return matrix;
+}
+
+const Matrix3& xyz_to_srgb_matrix() {
+  static const Matrix3 matrix = inverse(srgb_to_xyz_matrix());
+  return matrix;
+}
+
+Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& how) {
+  SPECTILE_TRY(shape::same_lanes(in.lanes, out.lanes));
+  for (const float* plane : in.c) SPECTILE_TRY(shape::aligned(plane));
+  for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const std::array<float, 9> m = color::to_float(matrix);
+  tiles::for_blocks(blocks_for(in.lanes), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    const float* const src[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
+    float* const dst[3] = {out.c[0] + at, out.c[1] + at, out.c[2] + at};
+    (*table)->transform3(dst, src, m.data(), count * kLanesPerBlock);
+  });
+  return {};
+}
+
+Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& how) {
+  return transform(xyz_to_srgb_matrix(), xyz, rgb, how);
+}
+
+Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& how) {
+  return transform(srgb_to_xyz_matrix(), rgb, xyz, how);
+}
+
+}  // namespace spectile

@@ -1,0 +1,237 @@
+// Conversion: the streaming frame common to every image-to-image job.
+#include "src/io/convert/frame/conversion.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+
+#include "src/base/errors.hpp"
+#include "src/io/convert/frame/chunk_cache.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile::io {
+
+Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats) {
+  writer_ = &writer;
+  for (std::size_t i = 0; i < slots; ++i) {
+    auto row = FloatBuffer::create(floats);
+    if (!row) return row.error();
+    std::fill_n(row->data(), row->size(), 0.0F);
+    rows_.push_back(*std::move(row));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<Strip>> MemoryJob::read(int first_line, int lines) {
+  auto strip = std::make_shared<Strip>();
+  strip->first_line = first_line;
+  strip->lines = lines;
+  strip->width = writer_->width();
+  return strip;
+}
+
+std::size_t slot_count(const ImageSpec& spec, int width, int threads) {
+  // Work space that a conversion may use beyond what its threads must have.
+  constexpr std::size_t kBudget = std::size_t{192} << 20;
+  const auto count = static_cast<std::size_t>(threads);
+  if (count == 1) return 1;
+  const std::size_t fitting = kBudget / std::max<std::size_t>(encoder_bytes(spec, width), 1);
+  return std::clamp(fitting, count, 4 * count);
+}
+
+namespace {
+
+// Memory for chunks that may come again.
+constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
+
+struct Slot {
+  std::shared_ptr<Strip> strip;
+  std::shared_ptr<KnownChunk> known;  // what it becomes, or, where it is reused, what it became before
+  int chunk = 0;
+  bool reused = false;
+  bool encoded = false;
+  LineStats stats;
+};
+
+class Run {
+ public:
+  Run(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines, const ImageOptions& options,
+      const std::function<bool(const LineStats&)>& stop_at)
+      : job_(job),
+        writer_(writer),
+        slots_(slots),
+        // Whole chunks, so that none needs two strips.
+        strip_lines_((strip_lines + writer.lines_per_chunk() - 1) / writer.lines_per_chunk() *
+                     writer.lines_per_chunk()),
+        options_(options),
+        stop_at_(stop_at),
+        cache_(kCacheBytes),
+        counts_(options.skip && job.repeats()),
+        // What is written as it is costs little more than to look for it.
+        caches_(counts_ && writer.compresses()) {}
+
+  Result<LineStats> run(int threads) {
+    read_ahead_ = threads > 1;
+    tiles::ordered_pipeline(
+        slots_.size(), threads, [this](std::size_t slot) { return produce(slots_[slot]); },
+        [this](std::size_t slot) { transform(slot); }, [this](std::size_t slot) { consume(slot); });
+    if (error_) return *error_;
+    return total_;
+  }
+
+ private:
+  bool produce(Slot& slot) {
+    if (failed_ || next_chunk_ >= writer_.chunks()) return false;
+    const Region region = writer_.region(next_chunk_);
+    if (!strip_ || !strip_->holds(region.y, region.height)) {
+      strip_.reset();
+      auto strip = next_strip(region.y);
+      if (!strip) return fail(strip.error());
+      strip_ = *std::move(strip);
+    }
+    slot.strip = strip_;
+    slot.chunk = next_chunk_++;
+    slot.stats = {};
+    slot.known.reset();
+    slot.reused = false;
+    // Here, where chunks come in order, so that which are reused depends on no thread.
+    if (caches_) look_up(slot, region);
+    return true;
+  }
+
+  void look_up(Slot& slot, const Region& region) {
+    auto found = cache_.find(*slot.strip, region);
+    slot.known = std::move(found.chunk);
+    slot.reused = found.known;
+  }
+
+  /// The strip that starts at `first`, and the reading of the one after it under way.
+  Result<std::shared_ptr<Strip>> next_strip(int first) {
+    auto strip =
+        ahead_.valid() ? ahead_.get() : job_.read(first, std::min(strip_lines_, writer_.height() - first));
+    const int after = first + strip_lines_;
+    if (strip && read_ahead_ && after < writer_.height()) {
+      ahead_ = std::async(std::launch::async, [this, after] {
+        return job_.read(after, std::min(strip_lines_, writer_.height() - after));
+      });
+    }
+    return strip;
+  }
+
+  void transform(std::size_t index) {
+    Slot& slot = slots_[index];
+    slot.encoded = false;
+    if (failed_ || slot.reused) return;
+    const auto start = std::chrono::steady_clock::now();
+    if (counts_) slot.stats.costs.chunks = 1;
+    const Region region = writer_.region(slot.chunk);
+    if (region.width < slot.strip->width) {
+      // A tile is to its job an image of its own.
+      auto tile = cut_strip(*slot.strip, region.x, region.width, region.y, region.height);
+      if (!tile) {
+        fail(tile.error());
+        return;
+      }
+      slot.strip = *std::move(tile);
+    }
+    if (stopped_) {
+      for (int i = 0; i < region.height; ++i) {
+        job_.line(index, *slot.strip, region.y + i, nullptr, slot.stats);
+      }
+      slot.stats = slot.stats.moved(region.x, 0);
+      if (slot.known) slot.known->stats = slot.stats;
+      return;
+    }
+    const ExrWriter::Pack pack = [&](const Region& to, std::byte* packed) {
+      for (int i = 0; i < to.height; ++i, packed += writer_.line_bytes(to.width)) {
+        job_.line(index, *slot.strip, to.y + i, packed, slot.stats);
+      }
+    };
+    if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
+    slot.stats = slot.stats.moved(region.x, 0);
+    slot.encoded = true;
+    if (slot.known && !failed_) {
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      cache_.complete(*slot.known, writer_.encoded(index), slot.stats, took.count());
+    }
+    if (stop_at_(slot.stats)) stopped_ = true;
+  }
+
+  void consume(std::size_t index) {
+    Slot& slot = slots_[index];
+    slot.strip.reset();
+    if (failed_) return;
+    if (slot.reused) reuse(slot);
+    total_.add(slot.stats);
+    if (slot.encoded && !stopped_) {
+      const auto encoded =
+          slot.reused ? std::span<const std::byte>(slot.known->output) : writer_.encoded(index);
+      if (auto written = writer_.write(slot.chunk, encoded); !written) {
+        fail(written.error());
+        return;
+      }
+    }
+    slot.known.reset();
+    const Region region = writer_.region(slot.chunk);
+    done_ += static_cast<std::uint64_t>(region.width) * static_cast<std::uint64_t>(region.height);
+    Progress progress = writer_.progress();
+    progress.pixels_done += done_;
+    if (options_.progress && !options_.progress(progress)) {
+      fail(make_error(ErrorCode::kCancelled, "stopped on request"));
+    }
+  }
+
+  /// Chunks are consumed in order, so the one that was made of the same input is there.
+  void reuse(Slot& slot) {
+    const KnownChunk& known = *slot.known;
+    const Region region = writer_.region(slot.chunk);
+    slot.stats = known.stats.moved(region.x - known.region.x, region.y - known.region.y);
+    slot.stats.costs = {};
+    slot.stats.costs.chunks = slot.stats.costs.chunks_reused = 1;
+    slot.stats.costs.reused_seconds = known.seconds;
+    slot.encoded = known.encoded;
+  }
+
+  bool fail(const Error& error) {
+    const std::scoped_lock lock(mutex_);
+    if (!error_) error_ = error;
+    failed_ = true;
+    return false;
+  }
+
+  LineJob& job_;
+  ExrWriter& writer_;
+  std::vector<Slot> slots_;
+  int strip_lines_;
+  const ImageOptions& options_;
+  const std::function<bool(const LineStats&)>& stop_at_;
+  ChunkCache cache_;
+  bool counts_ = false;
+  bool caches_ = false;
+  std::shared_ptr<Strip> strip_;
+  bool read_ahead_ = false;
+  std::future<Result<std::shared_ptr<Strip>>> ahead_;  // its destructor waits for the reading to end
+  int next_chunk_ = 0;
+  std::uint64_t done_ = 0;  // pixels of the level
+  LineStats total_;
+  std::atomic<bool> failed_ = false;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                                 const ImageOptions& options,
+                                 const std::function<bool(const LineStats&)>& stop_at) {
+  return Run(job, writer, slots, strip_lines, options, stop_at).run(tiles::thread_count(options.threads));
+}
+
+Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,
+                 const char* remedy) {
+  return make_error(code, "{}: {} {} pixel{}, the first at {},{}; {}", path, found.count, what,
+                    found.count == 1 ? "" : "s", found.first_x, found.first_y, remedy);
+}
+
+}  // namespace spectile::io

@@ -1,0 +1,73 @@
+// Conversion: the streaming frame common to every image-to-image job.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <spectile/image/image.hpp>
+#include <string>
+#include <vector>
+
+#include "kernels/abi.hpp"
+#include "src/io/exr/exr_writer.hpp"
+#include "src/io/convert/frame/line_stats.hpp"
+#include "src/io/exr/strips.hpp"
+
+namespace spectile::io {
+
+class FilteredJob;
+
+/// One job's own part of a conversion.
+class LineJob {
+ public:
+  virtual ~LineJob() = default;
+  /// Reads lines into a strip; in order, one call at a time.
+  virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
+  /// Makes one line of a strip, which may be a tile and have less pixels a line than the image: with
+  /// `packed`, the whole output line; without, only what `stats` needs. `slot` tells
+  /// which of the job's work spaces to use; calls with different slots run side by side.
+  virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
+  /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are
+  /// encoded once, as far as they are remembered.
+  virtual bool repeats() const { return false; }
+  /// Itself, where its output can have mip levels.
+  virtual FilteredJob* filtered() { return nullptr; }
+};
+
+/// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.
+class MemoryJob : public LineJob {
+ public:
+  /// `floats`: of a slot's row, zeros at first. The writer must outlive the job. Errors: kOutOfMemory.
+  Result<void> prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats);
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override;
+
+ protected:
+  const ExrWriter& writer() const noexcept { return *writer_; }
+  float* row(std::size_t slot) noexcept { return rows_[slot].data(); }
+
+ private:
+  const ExrWriter* writer_ = nullptr;
+  std::vector<FloatBuffer> rows_;
+};
+
+/// Slots (and so encoders) that a conversion runs with.
+std::size_t slot_count(const ImageSpec& spec, int width, int threads);
+
+/// Streams a job's lines through the encoders into the present level of the writer's file.
+/// `stop_at` says whether what was found so far forbids an output; then the rest is only counted, and the
+/// file must not be committed.
+/// Errors: from reading and writing, kCancelled.
+Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                                 const ImageOptions& options,
+                                 const std::function<bool(const LineStats&)>& stop_at);
+
+/// The error for a conversion that stopped at pixels it may not convert; `what` is "non-finite" or
+/// "negative".
+Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,
+                 const char* remedy);
+
+}  // namespace spectile::io

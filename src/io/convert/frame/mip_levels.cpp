@@ -1,0 +1,246 @@
+// Mip levels: an output's smaller levels, filtered from what its job makes of the input, in bounded memory.
+#include "src/io/convert/frame/mip_levels.hpp"
+
+#include <half.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "src/base/errors.hpp"
+#include "src/io/convert/frame/area_filter.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile::io {
+namespace {
+
+// Memory for levels that are made together.
+constexpr std::size_t kKeptBytes = std::size_t{64} << 20;
+// For the lines of the image that are averaged at once, and for a strip of a level.
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
+
+int fitting_lines(std::size_t line_bytes, int most) {
+  const std::size_t lines = kBatchBytes / std::max<std::size_t>(line_bytes, 1);
+  return static_cast<int>(std::clamp<std::size_t>(lines, 1, static_cast<std::size_t>(most)));
+}
+
+template <class Sample>
+void store(const double* row, std::size_t n, std::byte* out) {
+  auto* const samples = reinterpret_cast<Sample*>(out);
+  for (std::size_t x = 0; x < n; ++x) samples[x] = Sample(static_cast<float>(row[x]));
+}
+
+/// The levels as a job: its strips are averages.
+class LevelMaker : public LineJob {
+ public:
+  LevelMaker(FilteredJob& job, const ExrWriter& writer, std::size_t slots, int strip_lines,
+             const ImageOptions& options)
+      : job_(job),
+        writer_(writer),
+        options_(options),
+        image_(writer.size(0)),
+        first_slot_(slots),
+        workers_(filter_slots(options)),
+        source_lines_(strip_lines),
+        rows_(job.filtered_rows()) {
+    for (const auto& [plane, spec] : job.passing()) {
+      planes_.push_back(spec);
+      passing_.push_back(plane);
+      pixel_bytes_ += spec.sample_bytes();
+    }
+    planes_.resize(planes_.size() + rows_, {"", Imf::FLOAT});
+    pixel_bytes_ += rows_ * sizeof(float);
+    stride_ = blocks_for(static_cast<std::size_t>(image_.width)) * kLanesPerBlock;
+  }
+
+  Result<void> prepare() {
+    const std::size_t line = rows_ * stride_;
+    // At least a line for each thread.
+    batch_lines_ = std::max(fitting_lines(line * sizeof(float), 64), static_cast<int>(workers_));
+    auto batch = FloatBuffer::create(line * static_cast<std::size_t>(batch_lines_));
+    if (!batch) return batch.error();
+    batch_ = *std::move(batch);
+    return {};
+  }
+
+  /// Lines of the present level's strips.
+  int strip_lines() const {
+    return fitting_lines(pixel_bytes_ * static_cast<std::size_t>(writer_.width()), 256);
+  }
+
+  /// Goes on to the writer's present level.
+  Result<void> begin() {
+    const int level = writer_.level();
+    if (kept_from_ > 0) return {};
+    const bool keep = bytes_from(level) <= kKeptBytes;
+    tree_.emplace(image_, level, keep ? writer_.levels() - level : 1);
+    filters_.clear();
+    for (std::size_t i = 0; i < planes_.size(); ++i) filters_.emplace_back(*tree_);
+    next_ = 0;
+    targets_.clear();
+    if (!keep) return {};
+    kept_from_ = level;
+    for (const LevelTree::Level& one : tree_->levels()) {
+      auto strip = make_strip(planes_, one.size.width, 0, one.size.height);
+      if (!strip) return strip.error();
+      targets_.push_back(*std::move(strip));
+    }
+    return advance(image_.height, true);
+  }
+
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
+    if (kept_from_ > 0) return targets_[static_cast<std::size_t>(writer_.level() - kept_from_)];
+    auto strip = make_strip(planes_, writer_.width(), first_line, lines);
+    if (!strip) return strip.error();
+    targets_ = {*strip};
+    SPECTILE_TRY(advance(lines_needed(image_.height, writer_.height(), first_line + lines), false));
+    targets_.clear();
+    return strip;
+  }
+
+  void line(std::size_t slot, const Strip& strip, int line, std::byte* packed,
+            LineStats& /*stats*/) override {
+    if (packed != nullptr) job_.level_line(slot, strip, line, packed);
+  }
+
+  bool repeats() const override { return job_.repeats(); }
+
+ private:
+  std::size_t bytes_from(int level) const {
+    std::size_t bytes = 0;
+    for (; level < writer_.levels(); ++level) bytes += pixel_bytes_ * writer_.size(level).pixels();
+    return bytes;
+  }
+
+  /// Takes the image's lines before `end`. Progress is told where nobody else tells it meanwhile.
+  Result<void> advance(int end, bool tells) {
+    while (next_ < end) {
+      if (!source_ || !source_->holds(next_, 1)) {
+        source_.reset();
+        auto strip = job_.read(next_, std::min(source_lines_, image_.height - next_));
+        if (!strip) return strip.error();
+        source_ = *std::move(strip);
+        if (tells && options_.progress && !options_.progress(writer_.progress())) {
+          return make_error(ErrorCode::kCancelled, "stopped on request");
+        }
+      }
+      const int lines = std::min({batch_lines_, source_->first_line + source_->lines - next_, end - next_});
+      take(lines);
+      next_ += lines;
+    }
+    if (next_ == image_.height) source_.reset();
+    return {};
+  }
+
+  /// First the rows of all lines, side by side; then each plane's averages, in the order of the lines.
+  void take(int lines) {
+    const Execution how = {options_.threads, 1};
+    tiles::for_blocks(workers_, how, [&](std::size_t first, std::size_t count) {
+      for (std::size_t w = first; w < first + count; ++w) {
+        const auto part = [&](std::size_t i) {
+          return static_cast<int>(i * static_cast<std::size_t>(lines) / workers_);
+        };
+        std::vector<float*> rows(rows_);
+        for (int i = part(w); i < part(w + 1); ++i) {
+          for (std::size_t r = 0; r < rows_; ++r) rows[r] = batch_row(i, r);
+          job_.filter_rows(first_slot_ + w, *source_, next_ + i, rows.data());
+        }
+      }
+    });
+    tiles::for_blocks(planes_.size(), how, [&](std::size_t first, std::size_t count) {
+      for (std::size_t p = first; p < first + count; ++p) {
+        for (int i = 0; i < lines; ++i) take(p, i);
+      }
+    });
+  }
+
+  void take(std::size_t plane, int i) {
+    const int y = next_ + i;
+    const AreaFilter::Emit emit = [&](std::size_t level, int line, const double* row) {
+      Strip& target = *targets_[level];
+      const auto width = static_cast<std::size_t>(target.width);
+      std::byte* const out = target.row(plane, line);
+      planes_[plane].type == Imf::HALF ? store<Imath::half>(row, width, out) : store<float>(row, width, out);
+    };
+    if (plane >= passing_.size()) {
+      filters_[plane].add(y, static_cast<const float*>(batch_row(i, plane - passing_.size())), emit);
+      return;
+    }
+    const std::byte* const row = source_->row(passing_[plane], y);
+    switch (planes_[plane].type) {
+      case Imf::HALF:
+        return filters_[plane].add(y, reinterpret_cast<const Imath::half*>(row), emit);
+      case Imf::FLOAT:
+        return filters_[plane].add(y, reinterpret_cast<const float*>(row), emit);
+      default:
+        return pick(plane, y, reinterpret_cast<const std::uint32_t*>(row));
+    }
+  }
+
+  /// Whole numbers, names of things most likely, have no averages.
+  void pick(std::size_t plane, int y, const std::uint32_t* row) {
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const LevelSize size = tree_->levels()[i].size;
+      const auto before = static_cast<int>(std::int64_t{y} * size.height / image_.height);
+      for (int line = before; line < std::min(before + 2, size.height); ++line) {
+        if (nearest(image_.height, size.height, line) != y) continue;
+        auto* const out = reinterpret_cast<std::uint32_t*>(targets_[i]->row(plane, line));
+        for (int x = 0; x < size.width; ++x) out[x] = row[nearest(image_.width, size.width, x)];
+      }
+    }
+  }
+
+  float* batch_row(int i, std::size_t row) {
+    return batch_.data() + (static_cast<std::size_t>(i) * rows_ + row) * stride_;
+  }
+
+  FilteredJob& job_;
+  const ExrWriter& writer_;
+  const ImageOptions& options_;
+  LevelSize image_;
+  std::size_t first_slot_;
+  std::size_t workers_;
+  int source_lines_;
+  std::size_t rows_;
+  std::vector<PlaneSpec> planes_;     // of a level's strips
+  std::vector<std::size_t> passing_;  // planes of the image's strips
+  std::size_t pixel_bytes_ = 0;
+  std::size_t stride_ = 0;
+  FloatBuffer batch_;  // [line][row][x]
+  int batch_lines_ = 1;
+  int kept_from_ = 0;  // level; 0 where none is kept yet
+  std::optional<LevelTree> tree_;
+  std::vector<AreaFilter> filters_;
+  std::vector<std::shared_ptr<Strip>> targets_;  // one for each level of the tree
+  std::shared_ptr<Strip> source_;
+  int next_ = 0;  // line of the image
+};
+
+}  // namespace
+
+std::size_t filter_slots(const ImageOptions& options) {
+  return options.mipmap ? static_cast<std::size_t>(tiles::thread_count(options.threads)) : 0;
+}
+
+std::optional<std::array<int, 2>> tiles_of(const ImageOptions& options) {
+  // Of OpenEXR's own mip-mapped samples, and of other tools that make textures.
+  constexpr std::array kUsual = {64, 64};
+  if (options.mipmap && !options.tile) return kUsual;
+  return options.tile;
+}
+
+Result<void> write_levels(FilteredJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
+                          const ImageOptions& options) {
+  LevelMaker maker(job, writer, slots, strip_lines, options);
+  SPECTILE_TRY(maker.prepare());
+  for (int level = 1; level < writer.levels(); ++level) {
+    writer.begin_level(level);
+    SPECTILE_TRY(maker.begin());
+    const auto run = run_conversion(maker, writer, slots, maker.strip_lines(), options,
+                                    [](const LineStats&) { return false; });
+    if (!run) return run.error();
+  }
+  return {};
+}
+
+}  // namespace spectile::io

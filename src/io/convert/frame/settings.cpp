@@ -1,0 +1,287 @@
+// Settings as one line of text, and whether an image that holds one needs to be made anew.
+#include "src/io/convert/frame/settings.hpp"
+
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+
+#include <bit>
+#include <cstdint>
+#include <spectile/plan/plan.hpp>
+#include <spectile/image/settings.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/io/exr/exr_input.hpp"
+#include "src/io/convert/frame/mip_levels.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/exr/strips.hpp"
+
+namespace spectile {
+namespace {
+
+/// FNV-1a over the bits of numbers. Source: Fowler, Noll, Vo; draft-eastlake-fnv.
+class Digest {
+ public:
+  Digest& add(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    for (int shift = 0; shift < 64; shift += 8) {
+      hash_ = (hash_ ^ ((bits >> shift) & 0xFFU)) * 0x100000001B3U;
+    }
+    return *this;
+  }
+  std::string text() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325U;
+};
+
+/// Text in quotation marks on one line, such that no two texts look alike.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 32 || byte == 127) {
+      out += fmt::format("\\x{:02x}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string text_of(const MeasuredSpectrum& spectrum) {
+  Digest digest;
+  for (const double nm : spectrum.wavelengths_nm()) digest.add(nm);
+  for (const double value : spectrum.values()) digest.add(value);
+  return fmt::format("{}#{}", spectrum.values().size(), digest.text());
+}
+
+std::string text_of(const Bands& bands) {
+  Digest digest;
+  for (const Band& band : bands.list()) digest.add(band.lower_nm).add(band.centre_nm).add(band.upper_nm);
+  if (const Plan* const plan = bands.plan()) {
+    digest.add(bands.are_points() ? 1 : 0).add(plan->observer == Observer::kCie1964 ? 1964 : 1931);
+    for (const auto& weights : plan->sensor) {
+      for (const double v : weights) digest.add(v);
+    }
+    for (const PlanLight& light : plan->lights) {
+      for (const double v : light.emission) digest.add(v);
+    }
+  }
+  return fmt::format("{} from {} to {} nm #{}", bands.count(), bands[0].lower_nm,
+                     bands[bands.count() - 1].upper_nm, digest.text());
+}
+
+std::string text_of(const RgbSpace& space) {
+  const Chromaticities& c = space.chromaticities;
+  Digest digest;
+  for (const auto& point : {c.red, c.green, c.blue, c.white}) {
+    for (const double value : point) digest.add(value);
+  }
+  return fmt::format("{}#{}{}", quoted(space.name), digest.text(), space.relative_to_d65 ? " under D65" : "");
+}
+
+const char* text_of(Observer observer) {
+  return observer == Observer::kCie1964 ? "1964" : "1931";
+}
+
+const char* text_of(ColorTarget target) {
+  switch (target) {
+    case ColorTarget::kXyz:
+      return "xyz";
+    case ColorTarget::kLuminance:
+      return "luminance";
+    case ColorTarget::kSrgb:
+      break;
+  }
+  return "srgb";
+}
+
+const char* text_of(Adaptation adaptation) {
+  switch (adaptation) {
+    case Adaptation::kBradford:
+      return "bradford";
+    case Adaptation::kCat16:
+      return "cat16";
+    case Adaptation::kNone:
+      break;
+  }
+  return "none";
+}
+
+const char* text_of(Negative negative) {
+  switch (negative) {
+    case Negative::kClip:
+      return "clip";
+    case Negative::kKeep:
+      return "keep";
+    case Negative::kStop:
+      return "stop";
+    case Negative::kGamut:
+      break;
+  }
+  return "gamut";
+}
+
+const char* text_of(GamutPolicy policy) {
+  switch (policy) {
+    case GamutPolicy::kKeep:
+      return "keep";
+    case GamutPolicy::kStop:
+      return "stop";
+    case GamutPolicy::kClip:
+      break;
+  }
+  return "clip";
+}
+
+/// "; name=value" after what is there.
+class Line {
+ public:
+  explicit Line(const char* command) : text_(fmt::format("spectile {}; {}", SPECTILE_VERSION, command)) {}
+
+  Line& add(const char* name, std::string_view value) {
+    text_ += fmt::format("; {}={}", name, value);
+    return *this;
+  }
+
+  Line& add(const ImageOptions& options) {
+    // An option that is added there has to be looked at here: this no longer compiles then. Threads,
+    // lanes, skipping and progress change no bit.
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, progress] =
+        options;
+    add("pixel", pixel == PixelType::kFloat ? "float" : "half");
+    add("compression", compression.description());
+    add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
+    add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
+    // As they are written: mip levels alone imply tiles.
+    const auto written = io::tiles_of(options);
+    add("tile",
+        written ? fmt::format("{}x{}{}", (*written)[0], (*written)[1], mipmap ? " mipmap" : "") : "none");
+    return *this;
+  }
+
+  Line& add(const MethodOptions& options) {
+    add(static_cast<const ImageOptions&>(options));
+    add("method", to_string(options.method));
+    add("quantity", to_string(options.quantity));
+    add("bands", text_of(options.bands));
+    add("white", options.light ? quoted(options.light->name) + text_of(options.light->spectrum) : "D65");
+    add("white-observer", text_of(options.observer));
+    add("input-space", options.input_space ? text_of(*options.input_space) : "of the file");
+    add("negative", text_of(options.negative));
+    add("out-of-gamut", options.out_of_gamut ? text_of(*options.out_of_gamut) : "by negative");
+    add("layer", quoted(options.layer));
+    return *this;
+  }
+
+  std::string text() && { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+/// Reads what comes last in a file, which a file that was cut short has not: the last line, or the last tile
+/// of the smallest level.
+Result<void> read_last(io::ExrInput& input) {
+  for (int part = 0; part < input.parts(); ++part) {
+    if (input.deep(part)) continue;
+    const Imf::Header& header = input.header(part);
+    if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL) {
+      SPECTILE_TRY(input.read_smallest(part));
+      continue;
+    }
+    // A channel that there is not; the chunk is read all the same.
+    const Imath::Box2i window = input.header(part).dataWindow();
+    std::vector<float> line(static_cast<std::size_t>(io::width_of(input.header(part))));
+    Imf::FrameBuffer target;
+    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, line.data(), {window.min.x, window.max.y},
+                                                    window.max.x - window.min.x + 1, 1));
+    SPECTILE_TRY(input.read(part, target, window.max.y, window.max.y));
+  }
+  return {};
+}
+
+std::string settings_in(const io::ExrInput& input) {
+  for (int part = 0; part < input.parts(); ++part) {
+    const auto* const found =
+        input.header(part).findTypedAttribute<Imf::StringAttribute>(io::kSettingsAttribute);
+    if (found != nullptr) return found->value();
+  }
+  return {};
+}
+
+bool is_before(const timespec& a, const timespec& b) {
+  return a.tv_sec != b.tv_sec ? a.tv_sec < b.tv_sec : a.tv_nsec < b.tv_nsec;
+}
+
+}  // namespace
+
+std::string settings_text(const UpsampleImageOptions& options) {
+  Line line("upsample");
+  line.add(options).add("store", options.store == Store::kCoefficients ? "coefficients" : "spectra");
+  line.add("mask", options.masking == Masking::kFile    ? quoted(options.mask)
+                   : options.masking == Masking::kAlpha ? "alpha"
+                                                        : "none");
+  return std::move(line).text();
+}
+
+std::string settings_text(const RelightImageOptions& options) {
+  Line line("relight");
+  line.add(options);
+  line.add("under", quoted(options.under.name) + text_of(options.under.spectrum));
+  line.add("to", text_of(options.target));
+  line.add("observer", text_of(options.seen_by));
+  line.add("adapt", text_of(options.adaptation));
+  line.add("way", options.way == Way::kSpectra ? "spectra" : "direct");
+  return std::move(line).text();
+}
+
+std::string settings_text(const ProjectImageOptions& options) {
+  Line line("project");
+  line.add(options);
+  line.add("to", text_of(options.target));
+  line.add("observer", text_of(options.observer));
+  line.add("illuminant", options.light ? text_of(*options.light) : "D65");
+  line.add("quantity", options.quantity ? to_string(*options.quantity) : "of the file");
+  line.add("adapt", text_of(options.adaptation));
+  return std::move(line).text();
+}
+
+std::string settings_text(const ExpandImageOptions& options) {
+  Line line("expand");
+  line.add(options).add("bands", options.bands ? text_of(*options.bands) : "of the file");
+  return std::move(line).text();
+}
+
+Result<std::string> settings_of(const std::string& path) {
+  return io::contained<std::string>(path, [&]() -> Result<std::string> {
+    const auto input = io::ExrInput::open(path, 1);
+    if (!input) return input.error();
+    return settings_in(**input);
+  });
+}
+
+bool up_to_date(const std::string& output, std::span<const std::string> made_from,
+                std::string_view settings) {
+  struct stat made {};
+  if (::stat(output.c_str(), &made) != 0 || !S_ISREG(made.st_mode)) return false;
+  for (const std::string& file : made_from) {
+    struct stat source {};
+    if (::stat(file.c_str(), &source) != 0 || !is_before(source.st_mtim, made.st_mtim)) return false;
+  }
+  const auto same = io::contained<bool>(output, [&]() -> Result<bool> {
+    const auto input = io::ExrInput::open(output, 1);
+    if (!input) return input.error();
+    if (settings.empty() || settings_in(**input) != settings) return false;
+    SPECTILE_TRY(read_last(**input));
+    return true;
+  });
+  return same && *same;
+}
+
+}  // namespace spectile

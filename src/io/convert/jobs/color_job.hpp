@@ -1,0 +1,60 @@
+// ColorJob: what the jobs share whose output is a colour, with the channels that pass through beside it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <spectile/image/image.hpp>
+#include <utility>
+#include <vector>
+
+#include "src/io/convert/stages/color_rows.hpp"
+#include "src/io/convert/frame/mip_levels.hpp"
+
+namespace spectile::io {
+
+class ColorJob : public FilteredJob {
+ public:
+  /// Of the source's planes, those from `first_passing` on pass through, but for names that the colour has.
+  /// All references must outlive it.
+  ColorJob(const std::vector<PlaneSpec>& planes, std::size_t first_passing, ColorTarget target,
+           const ImageOptions& options, const kernels::KernelTable& kernels);
+
+  /// Output channels: the colour, then those that pass through.
+  const std::vector<ChannelSpec>& channels() const noexcept { return channels_; }
+
+  void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) final;
+  std::vector<std::pair<std::size_t, PlaneSpec>> passing() const final;
+  std::size_t filtered_rows() const final { return colors_; }
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) final;
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) final;
+
+ protected:
+  /// Work space of the slots, for lines of `width` pixels. Errors: kOutOfMemory.
+  Result<void> prepare_colors(const ExrWriter& writer, int width, std::size_t slots);
+
+  /// Makes the colours of a line in the first rows of `color`, whose width is set. With `checks_only`, what
+  /// `stats` needs is enough.
+  virtual void make_colors(std::size_t slot, const Strip& strip, int line, ColorLine& color, LineStats& stats,
+                           bool checks_only) = 0;
+
+  const kernels::KernelTable& kernels() const noexcept { return kernels_; }
+
+ private:
+  struct Work {
+    ColorLine color;
+    FloatBuffer halves;
+  };
+  std::uint64_t pack_colors(Work& work, std::size_t width, std::byte* packed) const;
+  void pass(const Strip& strip, std::size_t plane, int line, std::size_t channel, std::byte* packed) const;
+
+  const std::vector<PlaneSpec>& planes_;
+  const ImageOptions& options_;
+  const kernels::KernelTable& kernels_;
+  const ExrWriter* writer_ = nullptr;
+  std::vector<Work> works_;
+  std::size_t colors_ = 0;
+  std::vector<ChannelSpec> channels_;
+  std::vector<std::size_t> passing_;  // source planes, of the channels after the colours
+};
+
+}  // namespace spectile::io

@@ -1,0 +1,118 @@
+// read_rgb_image and write_rgb_image: RGB in memory, for what is not worth streaming.
+#include <algorithm>
+#include <cstring>
+#include <spectile/image/image.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/convert/stages/lines.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/sources/rgb_source.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+Result<RgbImage> read(const std::string& path, const std::string& layer, int threads) {
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  auto source = io::RgbSource::open(path, layer, tiles::thread_count(threads));
+  if (!source) return source.error();
+  RgbImage image;
+  image.width = (*source)->width();
+  image.height = (*source)->height();
+  const auto width = static_cast<std::size_t>(image.width);
+  auto rgb = ColorLanes::create(width * static_cast<std::size_t>(image.height));
+  if (!rgb) return rgb.error();
+  image.rgb = *std::move(rgb);
+  auto line_memory = io::ColorLine::create(image.width);
+  if (!line_memory) return line_memory.error();
+  const int step = io::strip_lines((*source)->header(), (*source)->planes(), 1);
+  for (int first = 0; first < image.height; first += step) {
+    const auto strip = (*source)->read(first, std::min(step, image.height - first));
+    if (!strip) return strip.error();
+    for (int line = first; line < first + (*strip)->lines; ++line) {
+      (*source)->float_rows(**kernels, **strip, line, line_memory->rows);
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::memcpy(image.rgb.span().c[k] + static_cast<std::size_t>(line) * width, line_memory->rows[k],
+                    width * sizeof(float));
+      }
+    }
+  }
+  return image;
+}
+
+/// Lines of an image in memory, handed to the encoders.
+class RgbJob : public io::MemoryJob {
+ public:
+  RgbJob(ColorView rgb, int width, PixelType pixel, const kernels::KernelTable& kernels)
+      : rgb_(rgb), width_(static_cast<std::size_t>(width)), pixel_(pixel), kernels_(kernels) {}
+
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+    return MemoryJob::prepare(writer, slots, 2 * padded());
+  }
+
+  void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
+            io::LineStats& /*stats*/) override {
+    if (packed == nullptr) return;
+    auto* const halves = reinterpret_cast<std::uint16_t*>(row(slot) + padded());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* in = rgb_.c[k] + static_cast<std::size_t>(line) * width_;
+      std::byte* const out = packed + writer().channel_offset(k);
+      if (pixel_ == PixelType::kFloat) {
+        std::memcpy(out, in, width_ * sizeof(float));
+        continue;
+      }
+      std::memcpy(row(slot), in, width_ * sizeof(float));
+      kernels_.float_to_half(halves, row(slot), padded());
+      std::memcpy(out, halves, width_ * sizeof(std::uint16_t));
+    }
+  }
+
+ private:
+  std::size_t padded() const { return blocks_for(width_) * kLanesPerBlock; }
+  ColorView rgb_;
+  std::size_t width_;
+  PixelType pixel_;
+  const kernels::KernelTable& kernels_;
+};
+
+Result<void> write(const std::string& path, const ColorView& rgb, int width, int height,
+                   const ImageOptions& options) {
+  if (width <= 0 || height <= 0 ||
+      rgb.lanes != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    return make_error(ErrorCode::kSizeMismatch, "{} lanes are not an image of {} x {}", rgb.lanes, width,
+                      height);
+  }
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  const Imf::Header header(width, height);
+  const int threads = tiles::thread_count(options.threads);
+  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  io::ImageSpec spec;
+  spec.source = &header;
+  spec.channels = {{"R", type}, {"G", type}, {"B", type}};
+  spec.compression = options.compression;
+  const std::size_t slots = io::slot_count(spec, width, threads);
+  auto writer = io::ExrWriter::create(path, spec, slots);
+  if (!writer) return writer.error();
+  RgbJob job(rgb, width, options.pixel, **kernels);
+  SPECTILE_TRY(job.prepare(**writer, slots));
+  const auto stats =
+      io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
+  if (!stats) return stats.error();
+  return (*writer)->commit();
+}
+
+}  // namespace
+
+Result<RgbImage> read_rgb_image(const std::string& path, const std::string& layer, int threads) {
+  return io::contained<RgbImage>(path, [&] { return read(path, layer, threads); });
+}
+
+Result<void> write_rgb_image(const std::string& path, ColorView rgb, int width, int height,
+                             const ImageOptions& options) {
+  return io::contained<void>(path, [&] { return write(path, rgb, width, height, options); });
+}
+
+}  // namespace spectile

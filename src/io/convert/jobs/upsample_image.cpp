@@ -1,0 +1,288 @@
+// upsample_image: an RGB image becomes a spectral one, line by line.
+#include <chrono>
+#include <cstring>
+#include <spectile/image/image.hpp>
+#include <spectile/image/settings.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/convert/stages/band_channels.hpp"
+#include "src/io/convert/stages/band_filter.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
+#include "src/io/convert/stages/color_stage.hpp"
+#include "src/io/convert/frame/conversion.hpp"
+#include "src/io/convert/stages/line_solver.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
+#include "src/io/convert/frame/mip_levels.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/sources/pixel_mask.hpp"
+#include "src/io/convert/sources/rgb_source.hpp"
+#include "src/io/convert/frame/settings.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+using io::LineStats;
+using io::Strip;
+
+using Clock = std::chrono::steady_clock;
+
+/// Work space of one slot.
+struct Work {
+  io::ColorLine rgb;
+  std::vector<std::uint8_t> masked;
+  io::LineSolver::Work solving;
+  io::BandPacker::Work bands;
+  io::BandFilter::Work filtered;
+};
+
+class UpsampleJob : public io::FilteredJob {
+ public:
+  UpsampleJob(io::RgbSource& source, io::PixelMask& mask, const Upsampler& upsampler,
+              const rows::SampledRows& rows, const UpsampleImageOptions& options,
+              const kernels::KernelTable& kernels)
+      : source_(source),
+        mask_(mask),
+        upsampler_(upsampler),
+        options_(options),
+        stage_(source, upsampler, options, kernels),
+        solver_(stage_, upsampler, kernels, options.skip, pixels_of(source)),
+        packer_(kernels, rows, options),
+        filter_(kernels, upsampler, rows, packer_, options, options.store == Store::kCoefficients) {}
+
+  const io::ColorStage& stage() const noexcept { return stage_; }
+
+  /// Output channels: the preview and those that pass through first, as the source's planes, then the bands.
+  std::vector<io::ChannelSpec> channels() const {
+    std::vector<io::ChannelSpec> out;
+    for (const io::PlaneSpec& plane : source_.planes()) {
+      out.push_back({plane.name, io::passing_type(plane)});
+    }
+    if (options_.store == Store::kCoefficients) {
+      for (const std::string& name : io::coefficient_channels(upsampler_))
+        out.push_back({name, EXR_PIXEL_FLOAT});
+      return out;
+    }
+    io::add_band_channels(out, upsampler_.bands(), options_.quantity, options_.pixel);
+    return out;
+  }
+
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+    writer_ = &writer;
+    for (std::size_t i = 0; i < slots; ++i) {
+      Work work;
+      auto rgb = io::ColorLine::create(source_.width());
+      if (!rgb) return rgb.error();
+      work.rgb = *std::move(rgb);
+      work.masked.resize(static_cast<std::size_t>(source_.width()));
+      auto solving = solver_.work(source_.width());
+      if (!solving) return solving.error();
+      work.solving = *std::move(solving);
+      auto bands = packer_.work();
+      if (!bands) return bands.error();
+      work.bands = *std::move(bands);
+      auto filtered = filter_.work(source_.width());
+      if (!filtered) return filtered.error();
+      work.filtered = *std::move(filtered);
+      works_.push_back(std::move(work));
+    }
+    return {};
+  }
+
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
+    auto strip = source_.read(first_line, lines);
+    if (!strip) return strip;
+    const auto colored = mask_.apply(**strip);
+    if (!colored) return colored.error();
+    // Mip levels read the lines again.
+    if (first_line >= counted_lines_) {
+      masked_colored_ += *colored;
+      counted_lines_ = first_line + lines;
+    }
+    return strip;
+  }
+
+  bool repeats() const override { return true; }
+
+  /// Masked pixels that were not black.
+  std::uint64_t masked_colored() const noexcept { return masked_colored_; }
+
+  void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
+    Work& work = works_[slot];
+    const auto width = static_cast<std::size_t>(strip.width);
+    const io::ColorStage::Settled settled = settle(work, strip, line, stats);
+    if (packed == nullptr) {
+      if (settled.may_be_outside) stage_.limit(line, work.rgb, width, stats);
+      return;
+    }
+    pass_through(strip, line, packed);
+    const io::LineCoefficients of =
+        solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, stats);
+    if (options_.mipmap) filter_.look(of, width);
+    if (options_.store == Store::kCoefficients) {
+      coefficients(of, width, packed);
+    } else {
+      spectra(work, of, width, packed, stats);
+    }
+  }
+
+  std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
+    std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
+    for (const io::PlaneSpec& plane : source_.planes()) out.emplace_back(out.size(), plane);
+    return out;
+  }
+
+  std::size_t filtered_rows() const override { return filter_.rows(); }
+
+  void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
+    Work& work = works_[slot];
+    LineStats counted_before;
+    const io::ColorStage::Settled settled = settle(work, strip, line, counted_before);
+    const auto width = static_cast<std::size_t>(strip.width);
+    filter_.filter(solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, counted_before),
+                   width, rows);
+  }
+
+  void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
+    Work& work = works_[slot];
+    pass_through(strip, line, packed);
+    const std::size_t first = source_.planes().size();
+    if (options_.store == Store::kCoefficients) {
+      coefficients(io::coefficients_in(strip, line, first), static_cast<std::size_t>(strip.width), packed);
+    } else {
+      filter_.pack(work.filtered, work.bands, {strip, line, first}, *writer_, first, packed);
+    }
+  }
+
+ private:
+  /// A line's RGB as the method takes it.
+  io::ColorStage::Settled settle(Work& work, const Strip& strip, int line, LineStats& stats) const {
+    const auto width = static_cast<std::size_t>(strip.width);
+    work.rgb.set_width(width);
+    stage_.load(strip, line, work.rgb);
+    stats.masked += mask_.line(strip, line, work.masked.data());
+    return stage_.settle(line, work.rgb, width, stats);
+  }
+
+  static std::uint64_t pixels_of(const io::RgbSource& source) {
+    return static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  }
+
+  void spectra(Work& work, const io::LineCoefficients& of, std::size_t width, std::byte* packed,
+               LineStats& stats) const {
+    const std::size_t first = source_.planes().size();
+    auto start = Clock::now();
+    for (const io::ColorRun& run : work.solving.runs) {
+      const bool computed = run.kind == io::ColorRun::Kind::kComputed;
+      if (computed) {
+        packer_.run(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
+      } else {
+        packer_.fill(work.bands, of, {run.first, run.pixels, width}, *writer_, first, packed);
+      }
+      const auto end = Clock::now();
+      const double took = std::chrono::duration<double>(end - start).count();
+      start = end;
+      (computed ? stats.costs.computed_pixels : stats.costs.filled_pixels) += run.pixels;
+      (computed ? stats.costs.computing_seconds : stats.costs.filling_seconds) += took;
+    }
+    stats.limited += packer_.limited(work.bands, of, width);
+  }
+
+  void pass_through(const Strip& strip, int line, std::byte* packed) const {
+    const auto width = static_cast<std::size_t>(strip.width);
+    for (std::size_t i = 0; i < source_.planes().size(); ++i) {
+      std::memcpy(packed + writer_->channel_offset(i, width), strip.row(i, line), strip.row_bytes[i]);
+    }
+  }
+
+  void coefficients(const io::LineCoefficients& of, std::size_t width, std::byte* packed) const {
+    const std::size_t first = source_.planes().size();
+    for (std::size_t k = 0; k < (of.scale == nullptr ? 3U : 4U); ++k) {
+      const float* const row = k < 3 ? of.c[k] : of.scale;
+      std::memcpy(packed + writer_->channel_offset(first + k, width), row, width * sizeof(float));
+    }
+  }
+
+  io::RgbSource& source_;
+  io::PixelMask& mask_;
+  const Upsampler& upsampler_;
+  const UpsampleImageOptions& options_;
+  const io::ExrWriter* writer_ = nullptr;
+  std::vector<Work> works_;
+  std::uint64_t masked_colored_ = 0;
+  int counted_lines_ = 0;
+  io::ColorStage stage_;
+  io::LineSolver solver_;
+  io::BandPacker packer_;
+  io::BandFilter filter_;
+};
+
+Result<ImageReport> upsample(const std::string& input, const std::string& output,
+                             const UpsampleImageOptions& options) {
+  SPECTILE_TRY(io::check_distinct(input, output));
+  if (options.masking == Masking::kFile) SPECTILE_TRY(io::check_distinct(options.mask, output));
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  const int threads = tiles::thread_count(options.threads);
+  const auto upsampler = io::upsampler_for(options);
+  if (!upsampler) return upsampler.error();
+  if (options.mipmap && options.store == Store::kCoefficients && !io::linear_in_coefficients(*upsampler)) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "coefficients of {} have no mip levels: the spectrum of their average is not the average of "
+        "the spectra, as it is for {}; store spectra instead",
+        to_string(options.method), to_string(Method::kMallett));
+  }
+  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
+  if (!source) return source.error();
+
+  auto mask = io::PixelMask::open(options, **source, threads);
+  if (!mask) return mask.error();
+  const auto rows = rows::SampledRows::over(*upsampler, upsampler->bands());
+  if (!rows) return rows.error();
+  UpsampleJob job(**source, *mask, *upsampler, *rows, options, **kernels);
+  io::ImageSpec spec;
+  spec.source = &(*source)->header();
+  spec.channels = job.channels();
+  spec.compression = options.compression;
+  spec.tile = io::tiles_of(options);
+  spec.mipmap = options.mipmap;
+  const bool coefficients = options.store == Store::kCoefficients;
+  spec.replaced = io::method_attribute_names();
+  for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
+  spec.text_attributes = io::method_attributes(*upsampler, options, coefficients);
+  if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity, options.bands);
+  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
+  const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
+  auto writer = io::ExrWriter::create(output, spec, slots);
+  if (!writer) return writer.error();
+  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
+
+  const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
+  const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
+  LineStats stats;
+  auto converted = io::convert(job, **writer, slots, lines, options, refusal, &stats);
+  if (!converted) return converted.error();
+  ImageReport report = *std::move(converted);
+  report.bands = options.bands.count();
+  report.quantity = options.quantity;
+  report.color_space = job.stage().space().description;
+  report.notes = (*source)->notes();
+  if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
+    report.notes.push_back(
+        fmt::format("{} pixel{} of alpha 0 with a colour: they become black; --mask none keeps them",
+                    job.masked_colored(), job.masked_colored() == 1 ? "" : "s"));
+  }
+  return report;
+}
+
+}  // namespace
+
+Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
+                                   const UpsampleImageOptions& options) {
+  return io::timed(input, [&] { return upsample(input, output, options); });
+}
+
+}  // namespace spectile

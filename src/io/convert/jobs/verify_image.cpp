@@ -1,0 +1,291 @@
+// verify_image: kernels, scalar reference and double oracle on every pixel of a file.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <spectile/image/image.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/convert/stages/color_stage.hpp"
+#include "src/io/convert/stages/lines.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/sources/rgb_source.hpp"
+#include "src/io/convert/sources/spectral_source.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/lanes/tiles.hpp"
+#include "src/upsampling/working_space.hpp"
+#include "src/reference/oracle/oracle.hpp"
+#include "src/reference/table.hpp"
+
+namespace spectile {
+namespace {
+
+constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the error of one rounding
+
+// What coefficients() states for the RGB that a sigmoid's samples come back as.
+constexpr double kSigmoidBound = 1e-6;
+
+/// NaN of any kind are the same result; their payload is not specified.
+bool same_result(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+void compare(const float* kernel, const float* expected, std::size_t n, VerifyReport& report) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (same_result(kernel[i], expected[i])) continue;
+    ++report.different_samples;
+    const double difference = std::abs(static_cast<double>(kernel[i]) - static_cast<double>(expected[i]));
+    report.max_kernel_difference =
+        std::max(report.max_kernel_difference, std::isnan(difference) ? INFINITY : difference);
+  }
+  report.samples += n;
+}
+
+void merge(const VerifyReport& from, VerifyReport& into) {
+  into.samples += from.samples;
+  into.different_samples += from.different_samples;
+  into.max_kernel_difference = std::max(into.max_kernel_difference, from.max_kernel_difference);
+  into.max_oracle_difference = std::max(into.max_oracle_difference, from.max_oracle_difference);
+}
+
+/// What the double oracle makes of one colour.
+struct UpsamplingOracle {
+  const Upsampler& upsampler;
+  std::vector<std::array<double, 7>> basis;  // of methods that mix bases
+  std::optional<WorkingSpace> space;         // of the sigmoid
+  double largest_basis = 0;
+
+  /// Largest error of a colour's samples, over the largest possible one; for the sigmoid, of the RGB that its
+  /// samples come back as. Nothing where the method promises nothing.
+  std::optional<double> difference(const std::array<double, 3>& rgb, std::span<const float> samples) const {
+    const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
+    if (space) {
+      const double size = upsampler.quantity() == Quantity::kReflectance ? 1.0 : *high;
+      if (!(*low >= 0 && *high <= size && *high > 0x1p-100) || !std::isfinite(*high)) return {};
+      double most = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (std::size_t b = 0; b < samples.size(); ++b) {
+          sum += space->weights[b][k] * static_cast<double>(samples[b]);
+        }
+        most = std::max(most, std::abs(sum - rgb[k]) / size);
+      }
+      return most;
+    }
+    const double size = (std::abs(*low) + (*high - *low)) * largest_basis;
+    if (!(size > 0x1p-100) || !std::isfinite(size)) return {};
+    const auto truth = oracle::smits_spectrum(basis, rgb, upsampler.lowest());
+    double most = 0;
+    for (std::size_t b = 0; b < samples.size(); ++b) {
+      most = std::max(most, std::abs(static_cast<double>(samples[b]) - truth[b]) / size);
+    }
+    return most;
+  }
+};
+
+Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptions& options) {
+  UpsamplingOracle out{upsampler, {}, {}};
+  if (!rows::mixes_bases(upsampler)) {
+    const MeasuredSpectrum light = options.light ? options.light->spectrum : *illuminant("D65");
+    auto space = working_space(options.bands, options.quantity, kRec709, light, options.observer);
+    if (!space) return space.error();
+    out.space = *std::move(space);
+    return out;
+  }
+  // The published bases have an oracle of their own; the exact ones are double already.
+  const bool published = options.method == Method::kSmits || options.method == Method::kSmits1999;
+  const auto basis = upsampler.basis();
+  // The oracle averages over bands; a plan's points are held to their own tables in double.
+  out.basis = published && options.bands.plan() == nullptr
+                  ? oracle::smits_basis(options.method, options.quantity, options.bands)
+                  : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
+  for (const auto& band : out.basis) {
+    for (const double v : band) out.largest_basis = std::max(out.largest_basis, std::abs(v));
+  }
+  return out;
+}
+
+/// Upsampling of one line of RGB, three ways.
+Result<void> verify_upsampled(const kernels::KernelTable& kernels, const UpsamplingOracle& oracle,
+                              const float* const rgb[3], std::size_t width, VerifyReport& report) {
+  const Upsampler& upsampler = oracle.upsampler;
+  const std::size_t bands = upsampler.bands().count();
+  auto memory = FloatBuffer::create(2 * bands * kLanesPerBlock);
+  if (!memory) return memory.error();
+  float* const ours = memory->data();
+  float* const expected = ours + bands * kLanesPerBlock;
+  const auto run = [&](const kernels::KernelTable& table, const float* const in[3], float* out) {
+    alignas(64) float c[4][kLanesPerBlock];
+    const float* const read[3] = {c[0], c[1], c[2]};
+    const rows::Coefficients found = {{c[0], c[1], c[2]}, rows::has_scale(upsampler) ? c[3] : nullptr};
+    std::uint64_t unsolved = 0;
+    rows::solve(table, upsampler, in, found, &unsolved, kLanesPerBlock);
+    rows::expand_blocks(table, upsampler, read, found.scale, out, 1, false);
+  };
+  std::vector<float> samples(bands);
+  for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
+    const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
+    run(kernels, in, ours);
+    run(reference::table, in, expected);
+    compare(ours, expected, bands * kLanesPerBlock, report);
+    for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
+      for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
+      const auto difference = oracle.difference({in[0][i], in[1][i], in[2][i]}, samples);
+      if (difference) report.max_oracle_difference = std::max(report.max_oracle_difference, *difference);
+    }
+  }
+  return {};
+}
+
+/// Projection of one line of spectra, three ways.
+Result<void> verify_projected(const kernels::KernelTable& kernels, const io::SpectralSource& source,
+                              const io::Strip& strip, int line, const Projector& projector,
+                              const std::vector<std::array<double, 3>>& oracle_weights,
+                              VerifyReport& report) {
+  const std::size_t bands = source.bands().count();
+  auto memory = FloatBuffer::create((bands + 6) * kLanesPerBlock);
+  if (!memory) return memory.error();
+  float* const block = memory->data();
+  float* const ours = block + bands * kLanesPerBlock;
+  float* const expected = ours + 3 * kLanesPerBlock;
+  const auto width = static_cast<std::size_t>(source.width());
+  std::vector<double> spectrum(bands);
+  for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
+    source.block(kernels, strip, line, at, block);
+    const auto run = [&](const kernels::KernelTable& table, float* out) {
+      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block, projector.float_weights(),
+                    bands, 1);
+    };
+    run(kernels, ours);
+    run(reference::table, expected);
+    compare(ours, expected, 3 * kLanesPerBlock, report);
+    for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
+      std::array<double, 3> size{};
+      for (std::size_t b = 0; b < bands; ++b) {
+        spectrum[b] = block[b * kLanesPerBlock + i];
+        for (std::size_t k = 0; k < 3; ++k) size[k] += std::abs(oracle_weights[b][k] * spectrum[b]);
+      }
+      const auto truth = oracle::project(oracle_weights, spectrum);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(size[k] > 0x1p-100) || !std::isfinite(size[k])) continue;
+        const double difference = std::abs(static_cast<double>(expected[k * kLanesPerBlock + i]) - truth[k]);
+        report.max_oracle_difference = std::max(report.max_oracle_difference, difference / size[k]);
+      }
+    }
+  }
+  return {};
+}
+
+/// Runs check(line number, line's report) over the lines of a strip on all threads.
+template <class Check>
+Result<void> over_lines(int first, int lines, int threads, VerifyReport& total, Check check) {
+  std::vector<VerifyReport> reports(static_cast<std::size_t>(lines));
+  std::vector<Result<void>> results(static_cast<std::size_t>(lines));
+  Execution how;
+  how.threads = threads;
+  how.tile_lanes = kLanesPerBlock;
+  tiles::for_blocks(reports.size(), how, [&](std::size_t i, std::size_t) {
+    results[i] = check(first + static_cast<int>(i), reports[i]);
+  });
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    SPECTILE_TRY(results[i]);
+    merge(reports[i], total);
+  }
+  return {};
+}
+
+/// Tells how far a check is. Errors: kCancelled.
+Result<void> go_on(const MethodOptions& options, int lines, int width, int height) {
+  const auto w = static_cast<std::uint64_t>(width);
+  const Progress progress = {static_cast<std::uint64_t>(lines) * w, static_cast<std::uint64_t>(height) * w};
+  if (!options.progress || options.progress(progress)) return {};
+  return make_error(ErrorCode::kCancelled, "stopped on request");
+}
+
+Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& options,
+                                const kernels::KernelTable& kernels) {
+  const auto upsampler = io::upsampler_for(options);
+  if (!upsampler) return upsampler.error();
+  const auto oracle = oracle_of(*upsampler, options);
+  if (!oracle) return oracle.error();
+  const io::ColorStage stage(source, *upsampler, options, kernels);
+  VerifyReport report;
+  report.isa = kernels.name;
+  report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
+                            options.bands.count());
+  report.oracle_bound = rows::mixes_bases(*upsampler) ? 6 * kUlp : kSigmoidBound;
+  const int step = io::strip_lines(source.header(), source.planes(), 1);
+  for (int first = 0; first < source.height(); first += step) {
+    const int lines = std::min(step, source.height() - first);
+    const auto strip = source.read(first, lines);
+    if (!strip) return strip.error();
+    SPECTILE_TRY(
+        over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) -> Result<void> {
+          auto color = io::ColorLine::create(source.width());
+          if (!color) return color.error();
+          const auto width = static_cast<std::size_t>(source.width());
+          const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
+          io::LineStats stats;
+          stage.line(**strip, line, *color, stats);
+          return verify_upsampled(kernels, *oracle, rgb, width, found);
+        }));
+    SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
+  }
+  report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  return report;
+}
+
+Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOptions& options,
+                                     const kernels::KernelTable& kernels) {
+  const bool light = source.quantity() == Quantity::kIlluminant;
+  const auto d65 = illuminant("D65");
+  if (!d65) return d65.error();
+  const auto projector =
+      light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
+  if (!projector) return projector.error();
+  // A plan's weights are given; the oracle integrates those of other bands itself.
+  const auto own = projector->weights();
+  const auto weights =
+      source.bands().plan() != nullptr
+          ? std::vector<std::array<double, 3>>(own.begin(), own.end())
+          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
+  VerifyReport report;
+  report.isa = kernels.name;
+  report.what =
+      fmt::format("projection of {}, {} bands", to_string(source.quantity()), source.bands().count());
+  // Roundings of the sum and of the weights, and what the oracle's own sum at 0.01 nm is off by.
+  report.oracle_bound = static_cast<double>(source.bands().count() + 2) * kUlp + 1e-8;
+  const int step = io::strip_lines(source.header(), source.planes(), 1);
+  for (int first = 0; first < source.height(); first += step) {
+    const int lines = std::min(step, source.height() - first);
+    const auto strip = source.read(first, lines);
+    if (!strip) return strip.error();
+    SPECTILE_TRY(over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) {
+      return verify_projected(kernels, source, **strip, line, *projector, weights, found);
+    }));
+    SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
+  }
+  report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  return report;
+}
+
+Result<VerifyReport> verify(const std::string& path, const MethodOptions& options) {
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  const int threads = tiles::thread_count(options.threads);
+  auto spectral = io::SpectralSource::open(path, std::nullopt, threads, options.region);
+  if (spectral) return verify_spectral(**spectral, options, **kernels);
+  auto rgb = io::RgbSource::open(path, options.layer, threads, options.region);
+  if (!rgb) return rgb.error();
+  return verify_rgb(**rgb, options, **kernels);
+}
+
+}  // namespace
+
+Result<VerifyReport> verify_image(const std::string& path, const MethodOptions& options) {
+  return io::contained<VerifyReport>(path, [&] { return verify(path, options); });
+}
+
+}  // namespace spectile

@@ -1,0 +1,153 @@
+// The attributes by which a file says how its spectra, or its coefficients, were made.
+#include "src/io/convert/sources/method_attributes.hpp"
+
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <charconv>
+#include <optional>
+
+#include "src/base/errors.hpp"
+#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/upsampling/method_rows.hpp"
+
+namespace spectile::io {
+namespace {
+
+// Says which rules the coefficients follow: lambda is (wavelength - 550 nm) / 150 nm.
+constexpr const char* kLayout = "1.0";
+
+std::string bands_text(const Bands& bands) {
+  std::string out;
+  for (const Band& band : bands.list()) {
+    if (!out.empty()) out += ' ';
+    out += fmt::format("{}:{}:{}", band.lower_nm, band.centre_nm, band.upper_nm);
+  }
+  return out;
+}
+
+std::string samples_text(const MeasuredSpectrum& spectrum) {
+  std::string out;
+  for (std::size_t i = 0; i < spectrum.values().size(); ++i) {
+    if (!out.empty()) out += ' ';
+    out += fmt::format("{}:{}", spectrum.wavelengths_nm()[i], spectrum.values()[i]);
+  }
+  return out;
+}
+
+/// Tuples of `size` numbers, separated by colons within and spaces between; nothing for other text.
+std::optional<std::vector<double>> parse_tuples(const std::string& text, std::size_t size) {
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    double value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) return {};
+    out.push_back(value);
+    at = next;
+    const bool last = out.size() % size == 0;
+    if (at == end) return last ? std::optional(std::move(out)) : std::nullopt;
+    if (*at != (last ? ' ' : ':')) return {};
+    ++at;
+  }
+  return {};
+}
+
+std::optional<std::string> text_of(const Imf::Header& header, const char* name) {
+  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
+  if (attribute == nullptr) return {};
+  return attribute->value();
+}
+
+Error damaged(const std::string& path, const char* name) {
+  return make_error(ErrorCode::kBadFile, "{}: attribute {} is missing or damaged", path, name);
+}
+
+}  // namespace
+
+std::vector<std::string> coefficient_channels(const Upsampler& upsampler) {
+  std::vector<std::string> names = {"spectile.c0", "spectile.c1", "spectile.c2"};
+  if (rows::has_scale(upsampler)) names.emplace_back("spectile.scale");
+  return names;
+}
+
+std::vector<std::string> method_attribute_names() {
+  return {"spectileMethod",       "spectileLight",        "spectileObserver",
+          "spectileQuantity",     "spectileBands",        "spectileLightSamples",
+          "spectileKeepNegative", "spectileCoefficients", kPlanAttribute};
+}
+
+std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampler& upsampler,
+                                                                   const MethodOptions& options,
+                                                                   bool coefficients) {
+  std::vector<std::pair<std::string, std::string>> out;
+  out.emplace_back("spectileMethod", std::string(to_string(upsampler.method())));
+  out.emplace_back("spectileLight", options.light ? options.light->name : "D65");
+  out.emplace_back("spectileObserver", upsampler.options().observer == Observer::kCie1964 ? "1964" : "1931");
+  if (!coefficients) return out;
+  add_plan_attribute(out, upsampler.bands());
+  out.emplace_back("spectileCoefficients", kLayout);
+  out.emplace_back("spectileQuantity", std::string(to_string(upsampler.quantity())));
+  out.emplace_back("spectileBands", bands_text(upsampler.bands()));
+  if (options.light) out.emplace_back("spectileLightSamples", samples_text(options.light->spectrum));
+  if (upsampler.options().negative == NegativeSamples::kKeep) out.emplace_back("spectileKeepNegative", "yes");
+  return out;
+}
+
+Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& path) {
+  const auto layout = text_of(header, "spectileCoefficients");
+  if (layout != kLayout) return damaged(path, "spectileCoefficients");
+  const auto method = parse_method(text_of(header, "spectileMethod").value_or(""));
+  if (!method) return damaged(path, "spectileMethod");
+  const auto quantity = parse_quantity(text_of(header, "spectileQuantity").value_or(""));
+  if (!quantity) return damaged(path, "spectileQuantity");
+  const auto edges = parse_tuples(text_of(header, "spectileBands").value_or(""), 3);
+  if (!edges) return damaged(path, "spectileBands");
+  std::vector<Band> list;
+  for (std::size_t i = 0; i < edges->size(); i += 3) {
+    list.push_back({(*edges)[i], (*edges)[i + 1], (*edges)[i + 2]});
+  }
+  // The default bands keep their own identity, for which tables are at hand.
+  const Bands usual;
+  const bool is_usual = std::equal(list.begin(), list.end(), usual.list().begin(), usual.list().end());
+  const auto stored = is_usual ? Result<Bands>(usual) : Bands::from_list(std::move(list));
+  if (!stored) return damaged(path, "spectileBands");
+  const auto bands = with_plan(header, *stored, path);
+  if (!bands) return bands.error();
+  UpsamplerOptions options;
+  const auto observer = text_of(header, "spectileObserver");
+  if (observer != "1931" && observer != "1964") return damaged(path, "spectileObserver");
+  if (observer == "1964") options.observer = Observer::kCie1964;
+  if (const auto keep = text_of(header, "spectileKeepNegative")) {
+    if (keep != "yes") return damaged(path, "spectileKeepNegative");
+    options.negative = NegativeSamples::kKeep;
+  }
+  const std::string light_name = light_name_of(header);
+  if (light_name.empty()) return damaged(path, "spectileLight");
+  if (const auto samples = text_of(header, "spectileLightSamples")) {
+    const auto pairs = parse_tuples(*samples, 2);
+    if (!pairs) return damaged(path, "spectileLightSamples");
+    std::vector<double> wavelengths;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < pairs->size(); i += 2) {
+      wavelengths.push_back((*pairs)[i]);
+      values.push_back((*pairs)[i + 1]);
+    }
+    const auto light = MeasuredSpectrum::from_samples(wavelengths, values);
+    if (!light) return damaged(path, "spectileLightSamples");
+    options.light = *light;
+  } else if (light_name != "D65") {
+    return damaged(path, "spectileLightSamples");
+  }
+  auto upsampler = Upsampler::create(*method, *quantity, *bands, options);
+  if (!upsampler && upsampler.error().code == ErrorCode::kBadArgument) {
+    return make_error(ErrorCode::kBadFile, "{}: {}", path, upsampler.error().message);
+  }
+  return upsampler;
+}
+
+std::string light_name_of(const Imf::Header& header) {
+  return text_of(header, "spectileLight").value_or("");
+}
+
+}  // namespace spectile::io

@@ -1,0 +1,158 @@
+// PixelMask: which pixels of an image need no spectra, by its own alpha or by another image.
+#include "src/io/convert/sources/pixel_mask.hpp"
+
+#include <OpenEXR/ImfChannelList.h>
+
+#include <algorithm>
+
+#include "src/base/errors.hpp"
+
+namespace spectile::io {
+namespace {
+
+/// `zero` leaves of a sample what says whether it is 0: all bits, or all but the sign.
+template <class Sample>
+std::uint64_t zeros(const std::byte* row, Sample zero, std::uint8_t* masked, std::size_t width) {
+  const auto* const samples = reinterpret_cast<const Sample*>(row);
+  std::uint64_t count = 0;
+  for (std::size_t x = 0; x < width; ++x) {
+    masked[x] = (samples[x] & zero) == 0 ? 1 : 0;
+    count += masked[x];
+  }
+  return count;
+}
+
+/// Notes which samples are not 0, NaN being one.
+template <class Sample>
+void note_colored(const std::byte* row, Sample zero, std::uint8_t* colored, std::size_t width) {
+  const auto* const samples = reinterpret_cast<const Sample*>(row);
+  for (std::size_t x = 0; x < width; ++x) {
+    colored[x] = static_cast<std::uint8_t>(colored[x] | ((samples[x] & zero) != 0 ? 1 : 0));
+  }
+}
+
+template <class Sample>
+void blacken(std::byte* row, const std::uint8_t* masked, std::size_t width) {
+  auto* const samples = reinterpret_cast<Sample*>(row);
+  for (std::size_t x = 0; x < width; ++x) samples[x] = masked[x] != 0 ? 0 : samples[x];
+}
+
+}  // namespace
+
+Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const RgbSource& source, int threads) {
+  PixelMask mask;
+  const bool from_file = options.masking == Masking::kFile;
+  if (from_file == options.mask.empty()) {
+    return from_file ? make_error(ErrorCode::kBadArgument, "no file to take the mask from")
+                     : make_error(ErrorCode::kBadArgument, "{}: a mask that is not asked for", options.mask);
+  }
+  if (options.masking == Masking::kAlpha && source.alpha()) {
+    mask.plane_ = source.alpha();
+    mask.type_ = source.planes()[*mask.plane_].type;
+  }
+  for (std::size_t k = 0; k < mask.color_types_.size(); ++k) mask.color_types_[k] = source.planes()[k].type;
+  if (!from_file) return mask;
+  auto file = ExrInput::open(options.mask, threads);
+  if (!file) return file.error();
+  mask.file_ = *std::move(file);
+  SPECTILE_TRY(mask.choose(source));
+  mask.plane_ = source.planes().size();
+  return mask;
+}
+
+Result<void> PixelMask::choose(const RgbSource& source) {
+  const std::string& path = file_->path();
+  for (int part = 0; part < file_->parts(); ++part) {
+    if (file_->deep(part)) continue;
+    const Imf::Header& header = file_->header(part);
+    for (const char* const name : {"A", "Y", "R"}) {
+      const Imf::Channel* const channel = header.channels().findChannel(name);
+      if (channel == nullptr) continue;
+      if (channel->xSampling != 1 || channel->ySampling != 1) {
+        return make_error(ErrorCode::kBadFile,
+                          "{}: channel \"{}\" is subsampled {} x {}, which no mask can be", path, name,
+                          channel->xSampling, channel->ySampling);
+      }
+      const Imf::Header& whole = source.whole();
+      if (width_of(header) != width_of(whole) || height_of(header) != height_of(whole)) {
+        return make_error(ErrorCode::kBadFile, "{}: is {} x {}, the image that it masks {} x {}", path,
+                          width_of(header), height_of(header), width_of(whole), height_of(whole));
+      }
+      part_ = part;
+      channel_ = name;
+      return crop(source);
+    }
+  }
+  return make_error(ErrorCode::kBadFile, "{}: has no channel A, Y or R to be a mask", path);
+}
+
+/// The part of the mask that goes with the part of the source, wherever the mask's own data window begins.
+Result<void> PixelMask::crop(const RgbSource& source) {
+  if (source.width() == width_of(source.whole()) && source.height() == height_of(source.whole())) return {};
+  const Imath::V2i corner = file_->header(part_).dataWindow().min;
+  const int x = corner.x + source.offset()[0];
+  const int y = corner.y + source.offset()[1];
+  std::vector<std::string> notes;
+  auto reader =
+      RegionReader::create(*file_, part_, {x, y, x + source.width() - 1, y + source.height() - 1}, notes);
+  if (!reader) return reader.error();
+  region_ = *std::move(reader);
+  return {};
+}
+
+Result<void> PixelMask::read(Strip& strip) {
+  if (!file_) return {};
+  // Every type that a channel may have comes as float.
+  const std::vector<PlaneSpec> wanted = {{channel_, type_}};
+  auto own = make_strip(wanted, strip.width, strip.first_line, strip.lines);
+  if (!own) return own.error();
+  SPECTILE_TRY(region_ ? region_->fill(wanted, **own) : fill_strip(*file_, part_, wanted, **own));
+  strip.planes.push_back(std::move((*own)->planes[0]));
+  strip.stride_bytes.push_back((*own)->stride_bytes[0]);
+  strip.row_bytes.push_back((*own)->row_bytes[0]);
+  const int height = height_of(region_ ? region_->header() : file_->header(part_));
+  if (strip.first_line + strip.lines == height) SPECTILE_TRY(file_->unchanged());
+  return {};
+}
+
+Result<std::uint64_t> PixelMask::apply(Strip& strip) {
+  SPECTILE_TRY(read(strip));
+  std::uint64_t count = 0;
+  if (!plane_) return count;
+  const auto width = static_cast<std::size_t>(strip.width);
+  masked_.resize(width);
+  colored_.resize(width);
+  for (int at = strip.first_line; at < strip.first_line + strip.lines; ++at) {
+    if (line(strip, at, masked_.data()) == 0) continue;
+    std::fill(colored_.begin(), colored_.end(), std::uint8_t{0});
+    for (std::size_t k = 0; k < color_types_.size(); ++k) {
+      std::byte* const row = strip.row(k, at);
+      if (color_types_[k] == Imf::HALF) {
+        note_colored<std::uint16_t>(row, 0x7FFF, colored_.data(), width);
+        blacken<std::uint16_t>(row, masked_.data(), width);
+      } else {
+        const std::uint32_t zero = color_types_[k] == Imf::FLOAT ? 0x7FFFFFFF : 0xFFFFFFFF;
+        note_colored<std::uint32_t>(row, zero, colored_.data(), width);
+        blacken<std::uint32_t>(row, masked_.data(), width);
+      }
+    }
+    for (std::size_t x = 0; x < width; ++x) count += masked_[x] & colored_[x];
+  }
+  return count;
+}
+
+std::uint64_t PixelMask::line(const Strip& strip, int line, std::uint8_t* masked) const {
+  if (!plane_) return 0;
+  const std::byte* const row = strip.row(*plane_, line);
+  const auto width = static_cast<std::size_t>(strip.width);
+  switch (type_) {
+    case Imf::HALF:
+      return zeros<std::uint16_t>(row, 0x7FFF, masked, width);
+    case Imf::FLOAT:
+      return zeros<std::uint32_t>(row, 0x7FFFFFFF, masked, width);
+    default:
+      return zeros<std::uint32_t>(row, 0xFFFFFFFF, masked, width);
+  }
+}
+
+}  // namespace spectile::io

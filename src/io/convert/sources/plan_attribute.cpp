@@ -1,0 +1,37 @@
+// The plan of a file's bands, as an attribute.
+#include "src/io/convert/sources/plan_attribute.hpp"
+
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <cmath>
+#include <spectile/image/plan_file.hpp>
+
+#include "src/base/errors.hpp"
+
+namespace spectile::io {
+
+void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts, const Bands& bands) {
+  if (bands.plan() != nullptr) texts.emplace_back(kPlanAttribute, plan_to_json(*bands.plan(), true));
+}
+
+Result<Bands> with_plan(const Imf::Header& header, const Bands& bands, const std::string& path) {
+  const auto* const text = header.findTypedAttribute<Imf::StringAttribute>(kPlanAttribute);
+  if (text == nullptr) return bands;
+  const auto plan = parse_plan(text->value(), path + ": attribute " + kPlanAttribute);
+  if (!plan) return plan.error();
+  auto planned = Bands::of_plan(*plan);
+  if (!planned) return make_error(ErrorCode::kBadFile, "{}: {}", path, planned.error().message);
+  bool same = planned->count() == bands.count();
+  // Names of channels have six decimals.
+  constexpr double kRounded = 1e-6;
+  for (std::size_t b = 0; same && b < bands.count(); ++b) {
+    same = std::abs((*planned)[b].centre_nm - bands[b].centre_nm) <= kRounded;
+  }
+  if (same) return planned;
+  return make_error(ErrorCode::kBadFile,
+                    "{}: its {} bands are not the {} wavelengths of its attribute {}, which would weigh them "
+                    "wrongly",
+                    path, bands.count(), planned->count(), kPlanAttribute);
+}
+
+}  // namespace spectile::io

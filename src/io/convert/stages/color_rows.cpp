@@ -1,0 +1,74 @@
+// A line of colour as an output's channels: names, range of halves, packing.
+#include "src/io/convert/stages/color_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace spectile::io {
+
+std::vector<const char*> color_channels(ColorTarget target) {
+  switch (target) {
+    case ColorTarget::kXyz:
+      return {"X", "Y", "Z"};
+    case ColorTarget::kLuminance:
+      return {"Y"};
+    case ColorTarget::kSrgb:
+      break;
+  }
+  return {"R", "G", "B"};
+}
+
+exr_pixel_type_t passing_type(const PlaneSpec& plane) {
+  if (plane.type == Imf::HALF) return EXR_PIXEL_HALF;
+  return plane.type == Imf::FLOAT ? EXR_PIXEL_FLOAT : EXR_PIXEL_UINT;
+}
+
+std::uint64_t limit_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
+                            std::size_t width) {
+  float* const* rows = line.rows;
+  std::uint64_t limited = 0;
+  for (std::size_t x = 0; x < width; ++x) {
+    bool beyond = false;
+    for (std::size_t k = 0; k < count; ++k) beyond = beyond || std::fabs(rows[k][x]) > kernels::kHalfMax;
+    limited += beyond ? 1 : 0;
+  }
+  if (limited > 0) {
+    for (std::size_t k = 0; k < count; ++k) {
+      kernels.clamp(rows[k], rows[k], -kernels::kHalfMax, kernels::kHalfMax, line.padded);
+    }
+  }
+  return limited;
+}
+
+void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
+               PixelType type, FloatBuffer& halves, std::byte* out) {
+  if (type == PixelType::kFloat) {
+    std::memcpy(out, line.rows[row], width * sizeof(float));
+    return;
+  }
+  auto* const packed = reinterpret_cast<std::uint16_t*>(halves.data());
+  kernels.float_to_half(packed, line.rows[row], line.padded);
+  std::memcpy(out, packed, width * sizeof(std::uint16_t));
+}
+
+void load_colors(const Strip& strip, int line, std::size_t first, std::size_t count, ColorLine& to) {
+  const auto width = static_cast<std::size_t>(strip.width);
+  to.set_width(width);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::memcpy(to.rows[k], strip.row(first + k, line), width * sizeof(float));
+    std::fill(to.rows[k] + width, to.rows[k] + to.padded, 0.0F);
+  }
+}
+
+Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation adaptation) {
+  Matrix3 out = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  if (adaptation != Adaptation::kNone) {
+    // To the white that becomes sRGB's 1, 1, 1.
+    const std::array<double, 3> d65 = times(inverse(projector.xyz_to_srgb()), {1, 1, 1});
+    out = adaptation_matrix(adaptation, projector.white(), d65);
+  }
+  return target == ColorTarget::kSrgb ? product(projector.xyz_to_srgb(), out) : out;
+}
+
+}  // namespace spectile::io

@@ -1,0 +1,145 @@
+// ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
+#include "src/io/exr/exr_input.hpp"
+
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTiledInputPart.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "src/base/errors.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/io/exr/exr_sizes.hpp"
+
+namespace spectile::io {
+namespace {
+
+/// One line of what a library says: no line breaks, no final full stop, no file name before it.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+Result<void> check_is_exr(const std::string& path) {
+  // Not to wait for the writer of a pipe.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return system_error(path, "read", errno);
+  struct stat status {};
+  std::array<unsigned char, 4> magic{};
+  const bool known = ::fstat(fd, &status) == 0;
+  const bool folder = known && S_ISDIR(status.st_mode);
+  const bool plain = known && S_ISREG(status.st_mode);
+  const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
+  const Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
+  ::close(fd);
+  if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
+  if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
+  // The magic number of OpenEXR files, little-endian 20000630.
+  constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
+  if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
+  return sizes;
+}
+
+}  // namespace
+
+Result<void> guarded(const std::string& path, const std::function<void()>& action) {
+  try {
+    action();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kBadFile,
+                      "{}: needs more memory than there is (a damaged file may claim any size)", path);
+  } catch (const std::exception& error) {
+    std::string text = one_line(error.what());
+    // The library's messages often begin with the file's name in some form of sentence.
+    return make_error(ErrorCode::kBadFile, "{}: {}", path, text.empty() ? "damaged" : text);
+  } catch (...) {
+    return make_error(ErrorCode::kBadFile, "{}: damaged", path);
+  }
+}
+
+Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
+  SPECTILE_TRY(check_is_exr(path));
+  std::unique_ptr<ExrInput> input(new ExrInput(path));
+  const auto identity = identify(path);
+  if (!identity) return identity.error();
+  input->identity_ = *identity;
+  SPECTILE_TRY(guarded(path, [&] {
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
+    const int workers = threads > 1 ? threads : 0;
+    if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
+    input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), workers);
+  }));
+  bool flat = false;
+  for (int part = 0; part < input->parts(); ++part) flat = flat || !input->deep(part);
+  if (!flat)
+    return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
+  return input;
+}
+
+Result<ExrInput::Identity> ExrInput::identify(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return system_error(path, "read", errno);
+  return Identity{static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino),
+                  status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+Result<void> ExrInput::unchanged() const {
+  const auto now = identify(path_);
+  if (!now) return now.error();
+  if (*now == identity_) return {};
+  return make_error(ErrorCode::kBadFile, "{}: was changed while it was read", path_);
+}
+
+bool ExrInput::deep(int part) const {
+  const Imf::Header& h = header(part);
+  return h.hasType() && Imf::isDeepData(h.type());
+}
+
+Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, int y1) {
+  return guarded(path_, [&] {
+    Imf::InputPart input(*file_, part);
+    input.setFrameBuffer(target);
+    input.readPixels(y0, y1);
+  });
+}
+
+Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    input.setFrameBuffer(target);
+    input.readTiles(x0, x1, row, row);
+  });
+}
+
+Result<void> ExrInput::read_smallest(int part) {
+  return guarded(path_, [&] {
+    Imf::TiledInputPart input(*file_, part);
+    const int level_x = input.numXLevels() - 1;
+    const int level_y = input.numYLevels() - 1;
+    const int x = input.numXTiles(level_x) - 1;
+    const int y = input.numYTiles(level_y) - 1;
+    const Imath::Box2i window = input.dataWindowForTile(x, y, level_x, level_y);
+    const int width = window.max.x - window.min.x + 1;
+    const int height = window.max.y - window.min.y + 1;
+    std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    // A channel that there is not; the tile is read all the same.
+    Imf::FrameBuffer target;
+    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, samples.data(), window.min, width, height));
+    input.setFrameBuffer(target);
+    input.readTile(x, y, level_x, level_y);
+  });
+}
+
+}  // namespace spectile::io

@@ -1,0 +1,260 @@
+// Partial films: saving and loading their limbs.
+#include <OpenEXR/ImfChannelList.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <shared_mutex>
+#include <spectile/image/film_file.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/film/film_channels.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/film/pixel.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+using State = FilmAccess::State;
+
+constexpr std::size_t kPreviewChannels = 3;
+
+/// The pixels of the tiles that hold anything; one pixel where none does, since an image is never empty.
+PixelWindow touched_window(const State& s) {
+  PixelWindow out = {s.window.x1, s.window.y1, s.window.x0, s.window.y0};
+  for (std::size_t t = 0; t < s.tiles.size(); ++t) {
+    const std::int64_t* const limbs = s.tiles[t];
+    // A tile of zeros, of weights 0 or of sums that cancel, is as good as none.
+    if (limbs == nullptr || std::all_of(limbs, limbs + s.layout.limbs, [](std::int64_t v) { return v == 0; }))
+      continue;
+    const PixelWindow w = s.tile_window(t);
+    out = {std::min(out.x0, w.x0), std::min(out.y0, w.y0), std::max(out.x1, w.x1), std::max(out.y1, w.y1)};
+  }
+  if (out.x1 > out.x0) return out;
+  return {s.window.x0, s.window.y0, s.window.x0 + 1, s.window.y0 + 1};
+}
+
+/// Lines of limbs, two channels each, and the preview behind them.
+class SaveJob : public io::MemoryJob {
+ public:
+  SaveJob(const State& s, const PixelWindow& window, const std::vector<io::FilmLimb>& limbs, bool preview,
+          const kernels::KernelTable& kernels)
+      : s_(s), window_(window), limbs_(limbs), preview_(preview), kernels_(kernels), pixels_(s) {}
+
+  std::vector<io::ChannelSpec> channels() const {
+    std::vector<io::ChannelSpec> out;
+    for (const io::FilmLimb& limb : limbs_) {
+      out.push_back({limb.name + ".hi", EXR_PIXEL_UINT});
+      out.push_back({limb.name + ".lo", EXR_PIXEL_UINT});
+    }
+    for (const char* name : {"R", "G", "B"}) {
+      if (preview_) out.push_back({name, EXR_PIXEL_HALF});
+    }
+    return out;
+  }
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+    return MemoryJob::prepare(writer, slots, 2 * kPreviewChannels * padded());
+  }
+  void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
+            io::LineStats& /*stats*/) override {
+    if (packed == nullptr) return;
+    const int y = window_.y0 + line;
+    std::memset(packed, 0, writer().line_bytes(writer().width()));
+    for (int x = window_.x0; x < window_.x1;) {
+      const int end = std::min(window_.x1, (x / kFilmTile + 1) * kFilmTile);
+      const std::int64_t* const tile = s_.tiles[s_.tile_at(x, y)];
+      if (tile != nullptr) pack_tile(slot, tile, x, end, y, packed);
+      x = end;
+    }
+    if (preview_) pack_preview(slot, packed);
+  }
+
+ private:
+  std::size_t padded() const {
+    return blocks_for(static_cast<std::size_t>(window_.width())) * kLanesPerBlock;
+  }
+  float* preview_row(std::size_t slot, std::size_t c) { return row(slot) + c * padded(); }
+
+  void pack_tile(std::size_t slot, const std::int64_t* tile, int x0, int x1, int y, std::byte* packed) {
+    const auto first = static_cast<std::size_t>(x0 - window_.x0);
+    for (std::size_t i = 0; i < limbs_.size(); ++i) {
+      std::byte* hi = packed + writer().channel_offset(2 * i) + first * sizeof(std::uint32_t);
+      std::byte* lo = packed + writer().channel_offset(2 * i + 1) + first * sizeof(std::uint32_t);
+      const std::int64_t* limb = tile + limbs_[i].at + pixel_in_tile(x0, y) * limbs_[i].per_pixel;
+      for (int x = x0; x < x1; ++x, limb += limbs_[i].per_pixel) {
+        const auto bits = std::bit_cast<std::uint64_t>(*limb);
+        const auto high = static_cast<std::uint32_t>(bits >> 32U);
+        const auto low = static_cast<std::uint32_t>(bits);
+        std::memcpy(hi, &high, sizeof high);
+        std::memcpy(lo, &low, sizeof low);
+        hi += sizeof high;
+        lo += sizeof low;
+      }
+    }
+    for (int x = x0; preview_ && x < x1; ++x) {
+      pixels_.develop(FilmLayer::kSrgb, 0, tile, pixel_in_tile(x, y),
+                      preview_row(slot, 0) + static_cast<std::size_t>(x - window_.x0), padded());
+    }
+  }
+
+  void pack_preview(std::size_t slot, std::byte* packed) {
+    const auto width = static_cast<std::size_t>(window_.width());
+    for (std::size_t c = 0; c < kPreviewChannels; ++c) {
+      float* const values = preview_row(slot, c);
+      auto* const halves = reinterpret_cast<std::uint16_t*>(preview_row(slot, kPreviewChannels));
+      kernels_.float_to_half(halves, values, padded());
+      std::memcpy(packed + writer().channel_offset(2 * limbs_.size() + c), halves,
+                  width * sizeof(std::uint16_t));
+      std::fill_n(values, width, 0.0F);
+    }
+  }
+
+  const State& s_;
+  PixelWindow window_;
+  const std::vector<io::FilmLimb>& limbs_;
+  bool preview_;
+  const kernels::KernelTable& kernels_;
+  FilmPixels pixels_;
+};
+
+Result<FilmFileReport> save(const Film& film, const std::string& path, const std::string& progress,
+                            const ImageOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  if (progress.find('\0') != std::string::npos) {
+    return make_error(ErrorCode::kBadArgument,
+                      "{}: the progress text holds a zero byte, which files cannot keep", path);
+  }
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  State& s = FilmAccess::state(film);
+  const std::unique_lock lock(s.whole);
+  for (std::size_t t = 0; t < s.tiles.size(); ++t) {
+    const std::scoped_lock tile(s.mutex_of(t));  // a development may be looking at it
+    s.settle(t);
+  }
+  if (s.overflown) return film_overflow(s);
+  const PixelWindow window = touched_window(s);
+  const Imath::Box2i display({0, 0}, {s.options.width - 1, s.options.height - 1});
+  const Imath::Box2i data({window.x0, window.y0}, {window.x1 - 1, window.y1 - 1});
+  const Imf::Header header(display, data);
+  const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
+  SaveJob job(s, window, limbs, s.options.xyz.has_value(), **kernels);
+  // OpenEXRCore counts channels in 16 bits, with a sign; beyond, it drops all without a word.
+  constexpr std::size_t kMostChannels = 32767;
+  if (job.channels().size() > kMostChannels) {
+    return make_error(ErrorCode::kUnavailable, "{}: the film takes {} channels, and a file holds {}", path,
+                      job.channels().size(), kMostChannels);
+  }
+  io::ImageSpec spec;
+  spec.source = &header;
+  spec.channels = job.channels();
+  spec.compression = options.compression;
+  spec.text_attributes = io::film_attributes(s, progress);
+  const std::size_t slots = io::slot_count(spec, window.width(), tiles::thread_count(options.threads));
+  auto writer = io::ExrWriter::create(path, spec, slots);
+  if (!writer) return writer.error();
+  SPECTILE_TRY(job.prepare(**writer, slots));
+  const auto report = io::convert(job, **writer, slots, window.height(), options,
+                                  [](const io::LineStats&) { return std::optional<Error>(); });
+  if (!report) return report.error();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return FilmFileReport{report->bytes_written, seconds.count()};
+}
+
+/// Lines to read at once: a row of tiles, or as many as fit into some memory.
+int lines_at_once(std::size_t channels, int width) {
+  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  const std::size_t line = channels * sizeof(std::uint32_t) * static_cast<std::size_t>(width);
+  return static_cast<int>(std::clamp<std::size_t>(kMostBytes / line, 1, kFilmTile));
+}
+
+Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::FilmLimb>& limbs,
+                        const PixelWindow& data) {
+  std::vector<io::PlaneSpec> planes;
+  for (const io::FilmLimb& limb : limbs) {
+    for (const char* end : {".hi", ".lo"}) planes.push_back({limb.name + end, Imf::UINT});
+  }
+  const int step = lines_at_once(planes.size(), data.width());
+  for (int first = 0; first < data.height(); first += step) {
+    auto strip = io::make_strip(planes, data.width(), first, std::min(step, data.height() - first));
+    if (!strip) return strip.error();
+    SPECTILE_TRY(io::fill_strip(input, 0, planes, **strip));
+    for (int line = first; line < first + (*strip)->lines; ++line) {
+      const int y = data.y0 + line;
+      for (std::size_t i = 0; i < limbs.size(); ++i) {
+        const auto* const hi = reinterpret_cast<const std::uint32_t*>((*strip)->row(2 * i, line));
+        const auto* const lo = reinterpret_cast<const std::uint32_t*>((*strip)->row(2 * i + 1, line));
+        for (int x = data.x0; x < data.x1; ++x) {
+          const auto column = static_cast<std::size_t>(x - data.x0);
+          const std::uint64_t bits = (std::uint64_t{hi[column]} << 32U) | lo[column];
+          if (bits == 0) continue;
+          const std::size_t tile = s.tile_at(x, y);
+          std::int64_t* const memory = s.touch(tile);
+          if (memory == nullptr) {
+            return make_error(ErrorCode::kOutOfMemory, "no memory for another tile of the film");
+          }
+          s.additions[tile] = 1;
+          memory[limbs[i].at + pixel_in_tile(x, y) * limbs[i].per_pixel] = std::bit_cast<std::int64_t>(bits);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+/// Every colour's quad holds the weight, the file that of the first one.
+void copy_weights(State& s) {
+  for (std::int64_t* const tile : s.tiles) {
+    for (std::size_t q = 0; tile != nullptr && q < s.layout.quads * kernels::kFilmTilePixels; ++q) {
+      const std::size_t first = q - q % s.layout.quads;
+      for (const std::size_t limb : {3U, 7U}) tile[8 * q + limb] = tile[8 * first + limb];
+    }
+  }
+}
+
+Result<LoadedFilm> load(const std::string& path, int threads) {
+  auto input = io::ExrInput::open(path, tiles::thread_count(threads));
+  if (!input) return input.error();
+  const Imf::Header& header = (*input)->header(0);
+  auto described = io::film_of(header, path);
+  if (!described) return described.error();
+  State& s = *described->state;
+  const Imath::Box2i& box = header.dataWindow();
+  const PixelWindow data = {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
+  if (data.x0 < s.window.x0 || data.y0 < s.window.y0 || data.x1 > s.window.x1 || data.y1 > s.window.y1) {
+    return make_error(ErrorCode::kBadFile, "{}: holds pixels beyond the film's crop window", path);
+  }
+  const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
+  for (const io::FilmLimb& limb : limbs) {
+    for (const char* end : {".hi", ".lo"}) {
+      const Imf::Channel* const channel = header.channels().findChannel(limb.name + end);
+      if (channel == nullptr || channel->type != Imf::UINT || channel->xSampling != 1 ||
+          channel->ySampling != 1) {
+        return make_error(ErrorCode::kBadFile, "{}: channel {}{} is missing or not of whole numbers", path,
+                          limb.name, end);
+      }
+    }
+  }
+  SPECTILE_TRY(read_limbs(**input, s, limbs, data));
+  copy_weights(s);
+  for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
+  if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
+  return LoadedFilm{FilmAccess::make(std::move(described->state)), std::move(described->progress)};
+}
+
+}  // namespace
+
+Result<FilmFileReport> save_film(const Film& film, const std::string& path, const std::string& progress,
+                                 const ImageOptions& options) {
+  return io::contained<FilmFileReport>(path, [&] { return save(film, path, progress, options); });
+}
+
+Result<LoadedFilm> load_film(const std::string& path, int threads) {
+  return io::contained<LoadedFilm>(path, [&] { return load(path, threads); });
+}
+
+}  // namespace spectile

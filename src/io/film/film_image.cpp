@@ -1,0 +1,173 @@
+// write_developed, write_scene: a layer of a film, or the exact values of a scene, as an image.
+#include <cstring>
+#include <spectile/image/film_file.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/io/convert/stages/band_channels.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+/// Planes of one picture.
+struct Picture {
+  const float* data = nullptr;
+  std::size_t planes = 0;
+  std::size_t width = 0;
+  std::size_t plane_floats = 0;
+};
+
+/// Lines of a picture, floats or halves.
+class PictureJob : public io::MemoryJob {
+ public:
+  PictureJob(const Picture& picture, PixelType pixel, const kernels::KernelTable& kernels)
+      : picture_(picture), pixel_(pixel), kernels_(kernels) {}
+
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+    return MemoryJob::prepare(writer, slots, 2 * padded());
+  }
+  void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
+            io::LineStats& stats) override {
+    const std::size_t width = picture_.width;
+    float* const work = row(slot);
+    auto* const halves = reinterpret_cast<std::uint16_t*>(work + padded());
+    for (std::size_t p = 0; p < picture_.planes; ++p) {
+      const float* const from =
+          picture_.data + p * picture_.plane_floats + static_cast<std::size_t>(line) * width;
+      if (pixel_ == PixelType::kFloat) {
+        if (packed != nullptr) std::memcpy(packed + writer().channel_offset(p), from, width * sizeof(float));
+        continue;
+      }
+      for (std::size_t x = 0; x < width; ++x) {
+        // Beyond the largest half: written as that, and counted. Infinite variance stays what it is.
+        const bool beyond = std::abs(from[x]) > kernels::kHalfMax && std::abs(from[x]) < INFINITY;
+        work[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
+        stats.limited += beyond ? 1 : 0;
+      }
+      if (packed == nullptr) continue;
+      kernels_.float_to_half(halves, work, padded());
+      std::memcpy(packed + writer().channel_offset(p), halves, width * sizeof(std::uint16_t));
+    }
+  }
+
+ private:
+  std::size_t padded() const { return blocks_for(picture_.width) * kLanesPerBlock; }
+  Picture picture_;
+  PixelType pixel_;
+  const kernels::KernelTable& kernels_;
+};
+
+std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, PixelType pixel) {
+  std::vector<io::ChannelSpec> out;
+  const exr_pixel_type_t type = pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  const auto add = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) out.push_back({name, type});
+  };
+  switch (layer) {
+    case FilmLayer::kXyz:
+      add({"X", "Y", "Z"});
+      break;
+    case FilmLayer::kSrgb:
+    case FilmLayer::kSensor:
+      add({"R", "G", "B"});
+      break;
+    case FilmLayer::kLuminance:
+      add({"Y"});
+      break;
+    case FilmLayer::kSpectrum:
+      io::add_band_channels(out, film.options().bands, Quantity::kIlluminant, pixel);
+      break;
+    case FilmLayer::kWeight:
+      add({"weight"});
+      break;
+    case FilmLayer::kCount:
+      add({"count"});
+      break;
+    case FilmLayer::kVariance:
+      add({"variance"});
+      break;
+  }
+  return out;
+}
+
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
+                          const std::vector<io::ChannelSpec>& channels, const Texts& texts,
+                          const std::string& path, const ImageOptions& options) {
+  const auto kernels = dispatch::active();
+  if (!kernels) return kernels.error();
+  const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
+  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1});
+  const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
+  const Imf::Header header(display, data);
+  io::ImageSpec spec;
+  spec.source = &header;
+  spec.channels = channels;
+  spec.compression = options.compression;
+  spec.text_attributes = texts;
+  const std::size_t slots = io::slot_count(spec, w.width(), tiles::thread_count(options.threads));
+  auto writer = io::ExrWriter::create(path, spec, slots);
+  if (!writer) return writer.error();
+  PictureJob job(picture, options.pixel, **kernels);
+  SPECTILE_TRY(job.prepare(**writer, slots));
+  return io::convert(job, **writer, slots, w.height(), options,
+                     [](const io::LineStats&) { return std::optional<Error>(); });
+}
+
+Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t sensor,
+                                const std::string& path, const ImageOptions& options) {
+  auto development = FilmDevelopment::create(film, layer, sensor);
+  if (!development) return development.error();
+  const auto updated = development->update({options.threads});
+  if (!updated) return updated.error();
+  Texts texts;
+  if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
+  if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
+  if (layer == FilmLayer::kSpectrum) {
+    io::add_layout_attributes(texts, Quantity::kIlluminant, film.options().bands);
+  }
+  const Picture picture = {development->plane(0), development->planes(), development->stride(),
+                           development->stride() * static_cast<std::size_t>(development->height())};
+  auto report = write(picture, film.options(), channels_of(film, layer, options.pixel), texts, path, options);
+  if (report && layer == FilmLayer::kSpectrum) report->bands = film.options().bands.count();
+  return report;
+}
+
+Result<ImageReport> write_exact(const ProceduralScene& scene, const FilmOptions& film,
+                                const std::string& path, const ImageOptions& options) {
+  const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
+  const auto width = static_cast<std::size_t>(w.width());
+  const std::size_t plane = width * static_cast<std::size_t>(w.height());
+  auto pixels = FloatBuffer::create(3 * plane);
+  if (!pixels) return pixels.error();
+  tiles::for_blocks(
+      static_cast<std::size_t>(w.height()), {options.threads, 1}, [&](std::size_t first, std::size_t n) {
+        for (std::size_t i = first * width; i < (first + n) * width; ++i) {
+          const auto xyz =
+              scene.xyz(film, w.x0 + static_cast<int>(i % width), w.y0 + static_cast<int>(i / width));
+          for (std::size_t c = 0; c < 3; ++c) {
+            pixels->data()[c * plane + i] = static_cast<float>(xyz[c]);
+          }
+        }
+      });
+  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  return write({pixels->data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
+               options);
+}
+
+}  // namespace
+
+Result<ImageReport> write_developed(const Film& film, FilmLayer layer, std::size_t sensor,
+                                    const std::string& path, const ImageOptions& options) {
+  return io::timed(path, [&] { return write_layer(film, layer, sensor, path, options); });
+}
+
+Result<ImageReport> write_scene(const ProceduralScene& scene, const FilmOptions& film,
+                                const std::string& path, const ImageOptions& options) {
+  return io::timed(path, [&] { return write_exact(scene, film, path, options); });
+}
+
+}  // namespace spectile

@@ -1,0 +1,370 @@
+// Plans as JSON text.
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <spectile/image/plan_file.hpp>
+#include <stdexcept>
+
+#include "src/base/errors.hpp"
+#include "src/base/atomic_file.hpp"
+#include "src/io/text/spectrum_text.hpp"
+
+namespace spectile {
+namespace {
+
+// Keeps the order of what it holds.
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMostWavelengths = 4096;
+constexpr std::size_t kMostLights = 256;
+constexpr double kFirstNm = 100;
+constexpr double kLastNm = 10000;
+// What a plan needs is well within; text beyond it is built to use up memory or time.
+constexpr int kDeepest = 16;
+constexpr std::size_t kMostValues = 4'000'000;
+constexpr std::size_t kMostKeys = 1024;  // of one object, whose keys are searched one by one
+constexpr const char* kMeasure = "CIEDE2000 against 1 nm integration, cross-validated";
+constexpr std::array<const char*, 3> kSensorNames = {"x", "y", "z"};
+
+const char* name_of(Observer observer) {
+  return observer == Observer::kCie1964 ? "1964" : "1931";
+}
+
+std::string dumped(const Json& json, int indent) {
+  // Text that is no UTF-8 is mended rather than refused: names are for people.
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// --- to JSON ----------------------------------------------------------------------------------------------
+
+Json to_json(const PlanError& error) {
+  return {{"mean", error.mean}, {"percentile95", error.percentile95}, {"maximum", error.maximum}};
+}
+
+bool is_published(const PlanLight& light) {
+  const auto known = illuminant(light.name);
+  return known && std::ranges::equal(known->wavelengths_nm(), light.spectrum.wavelengths_nm()) &&
+         std::ranges::equal(known->values(), light.spectrum.values());
+}
+
+Json to_json(const PlanLight& light) {
+  Json out = {{"name", light.name}, {"emission", light.emission}};
+  if (!is_published(light)) {
+    const auto wavelengths = light.spectrum.wavelengths_nm();
+    const auto values = light.spectrum.values();
+    out["spectrum"] = {{"wavelengths_nm", std::vector<double>(wavelengths.begin(), wavelengths.end())},
+                       {"values", std::vector<double>(values.begin(), values.end())}};
+  }
+  return out;
+}
+
+Json promises_of(const Plan& plan) {
+  Json out = {{"measure", kMeasure}, {"illuminants", Json::object()}};
+  for (const PlanPromise& p : plan.promises) {
+    out["illuminants"][p.light][std::to_string(p.bounces)] = to_json(p.error);
+  }
+  for (const EvenBandsPromise& even : plan.even) {
+    out["even_bands"][even.bands][even.promise.light][std::to_string(even.promise.bounces)] =
+        to_json(even.promise.error);
+  }
+  return out;
+}
+
+// --- checks -----------------------------------------------------------------------------------------------
+
+/// What is wrong with a plan, in words; empty for nothing.
+std::string flaw(const Plan& plan) {
+  const std::size_t count = plan.wavelengths_nm.size();
+  if (count == 0 || count > kMostWavelengths) {
+    return fmt::format("{} wavelengths are not from 1 to {}", count, kMostWavelengths);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const double nm = plan.wavelengths_nm[k];
+    if (!(nm >= kFirstNm && nm <= kLastNm)) {
+      return fmt::format("a wavelength of {} nm is not from {} to {} nm", nm, kFirstNm, kLastNm);
+    }
+    if (k > 0 && !(nm > plan.wavelengths_nm[k - 1])) {
+      return fmt::format("the wavelengths do not ascend: {} nm comes after {} nm", nm,
+                         plan.wavelengths_nm[k - 1]);
+    }
+  }
+  if (!plan.bands.empty()) {
+    if (plan.bands.size() != count) {
+      return fmt::format("there are {} bands for {} wavelengths", plan.bands.size(), count);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (plan.bands[k].centre_nm != plan.wavelengths_nm[k]) {
+        return fmt::format("a band around {} nm belongs to the wavelength {} nm", plan.bands[k].centre_nm,
+                           plan.wavelengths_nm[k]);
+      }
+    }
+    if (const auto bands = Bands::from_list(plan.bands); !bands) return bands.error().message;
+  }
+  if (plan.sensor.size() != count) {
+    return fmt::format("the sensor has {} weights for {} wavelengths", plan.sensor.size(), count);
+  }
+  for (const auto& weights : plan.sensor) {
+    for (const double weight : weights) {
+      if (!std::isfinite(weight)) return fmt::format("a sensor weight is {}", weight);
+    }
+  }
+  if (plan.lights.empty() || plan.lights.size() > kMostLights) {
+    return fmt::format("{} lights are not from 1 to {}", plan.lights.size(), kMostLights);
+  }
+  std::set<std::string> names;
+  for (const PlanLight& light : plan.lights) {
+    if (!names.insert(light.name).second)
+      return fmt::format("two lights are called {}", io::quoted(light.name));
+    if (light.emission.size() != count) {
+      return fmt::format("the light {} has {} emission values for {} wavelengths", io::quoted(light.name),
+                         light.emission.size(), count);
+    }
+    for (const double value : light.emission) {
+      if (!std::isfinite(value))
+        return fmt::format("an emission value of {} is {}", io::quoted(light.name), value);
+    }
+  }
+  return {};
+}
+
+// --- from JSON --------------------------------------------------------------------------------------------
+
+/// Thrown and caught here only.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Refuses text that is built to use up memory or time, while it is parsed.
+class Guard {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, const Json&) {
+    if (depth > kDeepest) throw Refused(fmt::format("is nested more than {} deep", kDeepest));
+    const auto at = static_cast<std::size_t>(depth);
+    if (event == Json::parse_event_t::object_start) keys_[at + 1] = 0;
+    if (event == Json::parse_event_t::key && ++keys_[at] > kMostKeys) {
+      throw Refused(fmt::format("has an object of more than {} keys", kMostKeys));
+    }
+    if (++values_ > kMostValues) throw Refused(fmt::format("holds more than {} values", kMostValues));
+    return true;
+  }
+
+ private:
+  std::array<std::size_t, kDeepest + 2> keys_{};
+  std::size_t values_ = 0;
+};
+
+const Json& member(const Json& object, const char* key, const std::string& where) {
+  if (!object.is_object()) throw Refused(where + " is no object");
+  const auto found = object.find(key);
+  if (found == object.end()) throw Refused(fmt::format("{} has no \"{}\"", where, key));
+  return *found;
+}
+
+std::vector<double> numbers(const Json& object, const char* key, const std::string& where, std::size_t most) {
+  const Json& list = member(object, key, where);
+  if (!list.is_array()) throw Refused(fmt::format("\"{}\" of {} is no list", key, where));
+  if (list.size() > most) {
+    throw Refused(fmt::format("\"{}\" of {} has {} entries, more than {}", key, where, list.size(), most));
+  }
+  std::vector<double> out;
+  out.reserve(list.size());
+  for (const Json& entry : list) {
+    if (!entry.is_number()) {
+      throw Refused(fmt::format("\"{}\" of {} holds what is no number", key, where));
+    }
+    out.push_back(entry.get<double>());
+  }
+  return out;
+}
+
+PlanError error_of(const Json& json, const std::string& where) {
+  const auto one = [&](const char* key) {
+    const Json& value = member(json, key, where);
+    if (!value.is_number()) throw Refused(fmt::format("\"{}\" of {} is no number", key, where));
+    return value.get<double>();
+  };
+  return {one("mean"), one("percentile95"), one("maximum")};
+}
+
+std::vector<PlanPromise> promises_from(const Json& illuminants, const std::string& where) {
+  std::vector<PlanPromise> out;
+  if (!illuminants.is_object()) throw Refused(where + " is no object");
+  for (const auto& [light, bounces] : illuminants.items()) {
+    if (!bounces.is_object())
+      throw Refused(fmt::format("{} under {} is no object", where, io::quoted(light)));
+    std::set<int> known;  // "1" and "1.0" are one
+    for (const auto& [text, error] : bounces.items()) {
+      const auto number = io::number_in(text);
+      if (!number || !(*number >= 1 && *number <= 1000) || std::trunc(*number) != *number) {
+        throw Refused(fmt::format("{} bounces of {} are no whole number from 1", io::quoted(text), where));
+      }
+      if (!known.insert(static_cast<int>(*number)).second) {
+        throw Refused(fmt::format("{} under {} is given twice for {} bounces", where, io::quoted(light),
+                                  static_cast<int>(*number)));
+      }
+      out.push_back({light, static_cast<int>(*number), error_of(error, where)});
+    }
+  }
+  return out;
+}
+
+PlanLight light_from(const Json& json) {
+  const std::string where = "a light";
+  const Json& name = member(json, "name", where);
+  if (!name.is_string()) throw Refused("the name of a light is no text");
+  const auto text = name.get<std::string>();
+  const std::string named = "the light " + io::quoted(text);
+  std::vector<double> emission = numbers(json, "emission", named, kMostWavelengths);
+  if (!json.contains("spectrum")) {
+    auto known = illuminant(text);
+    if (!known) throw Refused(named + " has no spectrum, and no illuminant is called so");
+    return {text, std::move(emission), *std::move(known)};
+  }
+  const Json& spectrum = json["spectrum"];
+  const std::string of = "the spectrum of " + named;
+  auto samples = MeasuredSpectrum::from_samples(numbers(spectrum, "wavelengths_nm", of, kMostValues),
+                                                numbers(spectrum, "values", of, kMostValues));
+  if (!samples) throw Refused(of + ": " + samples.error().message);
+  return {text, std::move(emission), *std::move(samples)};
+}
+
+/// [[lower, upper], ...], one for each wavelength.
+std::vector<Band> bands_from(const Json& json, const std::vector<double>& wavelengths_nm) {
+  if (!json.is_array() || json.size() != wavelengths_nm.size()) {
+    throw Refused(fmt::format("\"bands_nm\" is no list of {} bands", wavelengths_nm.size()));
+  }
+  std::vector<Band> out;
+  for (std::size_t k = 0; k < wavelengths_nm.size(); ++k) {
+    const Json& ends = json[k];
+    if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
+      throw Refused("\"bands_nm\" holds what is no pair of wavelengths");
+    }
+    out.push_back({ends[0].get<double>(), wavelengths_nm[k], ends[1].get<double>()});
+  }
+  return out;
+}
+
+Plan plan_from(const Json& json) {
+  const std::string where = "the plan";
+  Plan plan;
+  plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, kMostWavelengths);
+  plan.sensor.resize(plan.wavelengths_nm.size());
+  const Json& sensor = member(json, "sensor", where);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto weights = numbers(sensor, kSensorNames[c], "the sensor", kMostWavelengths);
+    if (weights.size() != plan.wavelengths_nm.size()) {
+      throw Refused(fmt::format("the sensor has {} weights for {}, but there are {} wavelengths",
+                                weights.size(), kSensorNames[c], plan.wavelengths_nm.size()));
+    }
+    for (std::size_t k = 0; k < weights.size(); ++k) plan.sensor[k][c] = weights[k];
+  }
+  if (json.contains("bands_nm")) plan.bands = bands_from(json["bands_nm"], plan.wavelengths_nm);
+  const Json& lights = member(json, "illuminants", where);
+  if (!lights.is_array()) throw Refused("\"illuminants\" is no list");
+  if (lights.size() > kMostLights) {
+    throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), kMostLights));
+  }
+  for (const Json& light : lights) plan.lights.push_back(light_from(light));
+  const Json& observer = member(json, "observer", where);
+  if (observer != "1931" && observer != "1964")
+    throw Refused("\"observer\" is neither \"1931\" nor \"1964\"");
+  if (observer == "1964") plan.observer = Observer::kCie1964;
+  const auto promise = json.find("promise");
+  if (promise == json.end()) return plan;
+  if (!promise->is_object()) throw Refused("\"promise\" is no object");
+  if (promise->contains("illuminants")) {
+    plan.promises = promises_from((*promise)["illuminants"], "the promise");
+  }
+  if (promise->contains("even_bands")) {
+    const Json& even = (*promise)["even_bands"];
+    if (!even.is_object()) throw Refused("\"even_bands\" is no object");
+    for (const auto& [bands, errors] : even.items()) {
+      for (auto& p : promises_from(errors, "the promise of even bands"))
+        plan.even.push_back({bands, std::move(p)});
+    }
+  }
+  return plan;
+}
+
+/// "line N: ..." and the like, of what nlohmann-json says of text that is no JSON.
+std::string json_error(const std::string& what) {
+  // "[json.exception.parse_error.101] parse error at line 1, column 3: syntax error while ... - last read:
+  // ..."
+  const std::size_t at = what.find("] ");
+  std::string text = at == std::string::npos ? what : what.substr(at + 2);
+  if (const std::size_t tail = text.find("; last read"); tail != std::string::npos) text.resize(tail);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  }
+  constexpr std::size_t kMost = 200;
+  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  return text;
+}
+
+}  // namespace
+
+std::string plan_to_json(const Plan& plan, bool one_line) {
+  Json out = {{"wavelengths_nm", plan.wavelengths_nm}};
+  for (const Band& band : plan.bands) out["bands_nm"].push_back({band.lower_nm, band.upper_nm});
+  out["sensor"] = Json::object();
+  for (std::size_t c = 0; c < 3; ++c) {
+    Json& weights = out["sensor"][kSensorNames[c]] = Json::array();
+    for (const auto& of : plan.sensor) weights.push_back(of[c]);
+  }
+  out["illuminants"] = Json::array();
+  for (const PlanLight& light : plan.lights) out["illuminants"].push_back(to_json(light));
+  out["observer"] = name_of(plan.observer);
+  if (!plan.promises.empty() || !plan.even.empty()) out["promise"] = promises_of(plan);
+  return one_line ? dumped(out, -1) : dumped(out, 1) + "\n";
+}
+
+Result<Plan> parse_plan(std::string_view json, const std::string& source) {
+  const auto refuse = [&](const std::string& what) {
+    return make_error(ErrorCode::kBadFile, "{}: {}", source, what);
+  };
+  if (json.size() > kMostBytes) return refuse("is larger than 64 MiB, which no plan is");
+  try {
+    Plan plan = plan_from(Json::parse(json, Guard()));
+    if (const std::string what = flaw(plan); !what.empty()) return refuse(what);
+    return plan;
+  } catch (const Refused& refused) {
+    return refuse(refused.what());
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kOutOfMemory, "{}: no memory for a plan of {} bytes", source, json.size());
+  } catch (const nlohmann::json::exception& error) {
+    return refuse("is no plan: " + json_error(error.what()));
+  }
+}
+
+Result<Plan> load_plan(const std::string& path) {
+  const auto file = io::read_text_file(path);
+  if (!file) return file.error();
+  return parse_plan(*file->text, path);
+}
+
+Result<Bands> find_bands(const std::string& text) {
+  auto bands = Bands::parse(text);
+  if (bands) return bands;
+  const bool like_a_path = text.find('/') != std::string::npos || text.ends_with(".json");
+  std::error_code error;
+  if (!like_a_path && !std::filesystem::exists(text, error)) return bands;
+  const auto plan = load_plan(text);
+  if (!plan) return plan.error();
+  return Bands::of_plan(*plan);
+}
+
+Result<void> save_plan(const Plan& plan, const std::string& path) {
+  if (const std::string what = flaw(plan); !what.empty()) {
+    return make_error(ErrorCode::kBadArgument, "{}: not written: {}", path, what);
+  }
+  const std::string text = plan_to_json(plan);
+  auto file = io::AtomicFile::create(path);
+  if (!file) return file.error();
+  SPECTILE_TRY(file->write_at(text.data(), text.size(), 0));
+  return file->commit();
+}
+
+}  // namespace spectile

@@ -1,0 +1,91 @@
+// load_spectrum, load_spectra, load_spectrum_csv, find_spectrum: spectra from text files.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <numeric>
+#include <spectile/spectra/named_spectra.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/io/text/spectrum_text.hpp"
+
+namespace spectile {
+namespace {
+
+/// What a spectrum needs beyond what a list of samples does. Lines are named where they are given.
+Result<void> check_samples(const io::TextFile& file, const io::SampleLines& samples) {
+  const auto& w = samples.wavelengths_nm;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (w[i] > 0) continue;
+    return io::line_error(file, samples.lines[i], fmt::format("a wavelength of {} nm is not above 0", w[i]));
+  }
+  std::vector<std::size_t> order(w.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return w[i]; });
+  for (std::size_t i = 2; i < order.size(); ++i) {
+    if (w[order[i]] != w[order[i - 2]]) continue;
+    return io::line_error(file, samples.lines[order[i]],
+                          fmt::format("a third sample at {} nm; two there are a step", w[order[i]]));
+  }
+  if (w[order.front()] == w[order.back()]) {
+    return io::line_error(
+        file, samples.lines.back(),
+        fmt::format("all samples are at {} nm; a spectrum needs two wavelengths", w[order.front()]));
+  }
+  return {};
+}
+
+Result<Spectrum> spectrum_of(const io::TextFile& file, const io::SampleLines& samples) {
+  SPECTILE_TRY(check_samples(file, samples));
+  auto spectrum = PiecewiseLinearSpectrum::from_samples(samples.wavelengths_nm, samples.values);
+  if (!spectrum) return spectrum.error();
+  return Spectrum(*std::move(spectrum));
+}
+
+}  // namespace
+
+Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
+  const auto file = io::read_text_file(path);
+  if (!file) return file.error();
+  const auto samples = io::read_columns(*file);
+  if (!samples) return samples.error();
+  return MeasuredSpectrum::from_samples(samples->wavelengths_nm, samples->values);
+}
+
+Result<Spectrum> load_spectrum(const std::string& path, std::size_t column) {
+  const auto file = io::read_text_file(path);
+  if (!file) return file.error();
+  const bool cgats = io::is_cgats(*file);
+  if (!cgats && column > 0) {
+    return make_error(ErrorCode::kBadArgument, "{}: has one spectrum, counted from 0; there is no {}", path,
+                      column);
+  }
+  const auto samples = cgats ? io::read_cgats(*file, column) : io::read_columns(*file);
+  if (!samples) return samples.error();
+  return spectrum_of(*file, *samples);
+}
+
+Result<std::vector<Spectrum>> load_spectra(const std::string& path) {
+  const auto file = io::read_text_file(path);
+  if (!file) return file.error();
+  const auto all = io::is_cgats(*file) ? io::read_all_cgats(*file) : io::read_all_columns(*file);
+  if (!all) return all.error();
+  std::vector<Spectrum> out;
+  out.reserve(all->size());
+  for (const io::SampleLines& samples : *all) {
+    auto spectrum = spectrum_of(*file, samples);
+    if (!spectrum) return spectrum.error();
+    out.push_back(*std::move(spectrum));
+  }
+  return out;
+}
+
+Result<Spectrum> find_spectrum(const std::string& name_or_path) {
+  auto known = named_spectrum(name_or_path);
+  if (known || known.error().code != ErrorCode::kUnknownName) return known;
+  struct stat status {};
+  const bool like_a_path = name_or_path.find_first_of("./") != std::string::npos;
+  if (!like_a_path && ::stat(name_or_path.c_str(), &status) != 0) return known;
+  return load_spectrum(name_or_path);
+}
+
+}  // namespace spectile

@@ -1,0 +1,87 @@
+// Construction of batches of spectra, scalars and colours.
+#include <algorithm>
+#include <spectile/lanes/sampled_spectra.hpp>
+
+#include "src/base/errors.hpp"
+
+namespace spectile {
+namespace {
+
+Result<FloatBuffer> zeroed(std::size_t count) {
+  auto buffer = FloatBuffer::create(count);
+  if (buffer) std::fill_n(buffer->data(), count, 0.0F);
+  return buffer;
+}
+
+bool too_many(std::size_t lanes, std::size_t per_lane) {
+  return lanes > (std::size_t{1} << 60) / std::max<std::size_t>(per_lane, 1);
+}
+
+}  // namespace
+
+Result<SampledSpectra> SampledSpectra::create(const Bands& bands, std::size_t lanes) {
+  return constant(bands, lanes, 0.0F);
+}
+
+Result<SampledSpectra> SampledSpectra::constant(const Bands& bands, std::size_t lanes, float value) {
+  const std::vector<float> values(bands.count(), value);
+  return broadcast(bands, lanes, values);
+}
+
+Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t lanes,
+                                                 std::span<const float> values) {
+  if (values.size() != bands.count()) {
+    return make_error(ErrorCode::kBandsMismatch, "the spectrum has {} values, the bands are {}",
+                      values.size(), bands.count());
+  }
+  if (too_many(lanes, bands.count())) {
+    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} bands do not fit in memory", lanes,
+                      bands.count());
+  }
+  const std::size_t blocks = blocks_for(lanes);
+  auto buffer = FloatBuffer::create(blocks * bands.count() * kLanesPerBlock);
+  if (!buffer) return buffer.error();
+  float* out = buffer->data();
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (const float value : values) out = std::fill_n(out, kLanesPerBlock, value);
+  }
+  SampledSpectra spectra;
+  spectra.buffer_ = *std::move(buffer);
+  spectra.lanes_ = lanes;
+  spectra.bands_ = bands;
+  return spectra;
+}
+
+Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
+  if (too_many(lanes, 1)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
+  auto buffer = zeroed(blocks_for(lanes) * kLanesPerBlock);
+  if (!buffer) return buffer.error();
+  ScalarLanes out;
+  out.buffer_ = *std::move(buffer);
+  out.lanes_ = lanes;
+  return out;
+}
+
+Result<ColorLanes> ColorLanes::create(std::size_t lanes) {
+  if (too_many(lanes, 3)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
+  const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
+  auto buffer = zeroed(3 * stride);
+  if (!buffer) return buffer.error();
+  ColorLanes out;
+  out.buffer_ = *std::move(buffer);
+  out.lanes_ = lanes;
+  out.stride_ = stride;
+  return out;
+}
+
+ColorSpan ColorLanes::span() noexcept {
+  float* p = buffer_.data();
+  return {{p, p + stride_, p + 2 * stride_}, lanes_};
+}
+
+ColorView ColorLanes::view() const noexcept {
+  const float* p = buffer_.data();
+  return {{p, p + stride_, p + 2 * stride_}, lanes_};
+}
+
+}  // namespace spectile

@@ -1,0 +1,39 @@
+// The rules about shapes that are common to every batch operation, written once.
+#pragma once
+
+#include <cstdint>
+#include <spectile/lanes/sampled_spectra.hpp>
+
+#include "src/base/errors.hpp"
+
+namespace spectile::shape {
+
+inline Result<void> same(const SampledSpectraView& a, const SampledSpectraView& b) {
+  if (!(a.bands == b.bands)) {
+    return make_error(ErrorCode::kBandsMismatch, "one batch has bands {}, the other {}",
+                      a.bands.description(), b.bands.description());
+  }
+  if (a.lanes != b.lanes) {
+    return make_error(ErrorCode::kSizeMismatch, "one batch has {} lanes, the other {}", a.lanes, b.lanes);
+  }
+  return {};
+}
+
+inline Result<void> same_lanes(std::size_t a, std::size_t b) {
+  if (a != b) return make_error(ErrorCode::kSizeMismatch, "one batch has {} lanes, the other {}", a, b);
+  return {};
+}
+
+/// `what` says what the bands were expected by: "the projector".
+inline Result<void> bands_of(const char* what, const Bands& expected, const Bands& given) {
+  if (expected == given) return {};
+  return make_error(ErrorCode::kBandsMismatch, "the spectra have bands {}, {} expects {}",
+                    given.description(), what, expected.description());
+}
+
+inline Result<void> aligned(const void* p) {
+  if (reinterpret_cast<std::uintptr_t>(p) % 64 == 0) return {};
+  return make_error(ErrorCode::kBadArgument, "samples must start at a multiple of 64 bytes");
+}
+
+}  // namespace spectile::shape

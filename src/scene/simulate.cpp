@@ -1,0 +1,138 @@
+// Simulation: a scene drawn into a film step by step, and how far it is from the truth.
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <spectile/scene/procedural_scene.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+/// Samples a step, about: enough to keep a thread busy, few enough for its caches.
+constexpr std::uint64_t kSamplesAStep = 16384;
+
+/// How a run is cut into steps: passes over the pixels with a part of their samples each.
+struct Steps {
+  std::uint64_t samples = 0;  ///< a pixel, of this shard
+  std::uint64_t passes = 1;
+  std::uint64_t pixels = 0;
+  std::uint64_t pixels_a_step = 1;
+  std::uint64_t a_pass() const { return (pixels + pixels_a_step - 1) / pixels_a_step; }
+  std::uint64_t all() const { return samples == 0 ? 0 : passes * a_pass(); }
+};
+
+Steps steps_of(const FilmOptions& film, const SceneSampling& s) {
+  Steps out;
+  if (s.shards == 0 || s.shard >= s.shards) return out;
+  out.samples = s.samples_per_pixel > s.shard ? (s.samples_per_pixel - s.shard - 1) / s.shards + 1 : 0;
+  const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
+  out.pixels = static_cast<std::uint64_t>(w.width()) * static_cast<std::uint64_t>(w.height());
+  out.passes = std::max<std::uint64_t>(1, (out.samples + kSamplesAStep - 1) / kSamplesAStep);
+  const std::uint64_t a_pixel = std::max<std::uint64_t>(1, (out.samples + out.passes - 1) / out.passes);
+  out.pixels_a_step = std::max<std::uint64_t>(1, kSamplesAStep / a_pixel);
+  return out;
+}
+
+Result<void> run_step(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
+                      const Steps& steps, std::uint64_t step) {
+  const FilmOptions& o = film.options();
+  const bool wavelengths = o.input == FilmInput::kWavelengths;
+  // A pass is a shard of the shard.
+  SceneSampling part = sampling;
+  part.shards = sampling.shards * steps.passes;
+  part.shard = sampling.shard + step / steps.a_pass() * sampling.shards;
+  const std::uint64_t first = step % steps.a_pass() * steps.pixels_a_step;
+  const std::uint64_t count = std::min(steps.pixels_a_step, steps.pixels - first);
+  const std::uint64_t a_pixel = (steps.samples + steps.passes - 1) / steps.passes;
+  auto batch =
+      SceneBatch::create(count * a_pixel, wavelengths ? sampling.wavelengths : o.bands.count(), wavelengths);
+  if (!batch) return batch.error();
+  if (auto drawn = scene.draw(o, part, first, count, *batch); !drawn) return drawn;
+  return wavelengths ? film.add(batch->wavelength_samples()) : film.add(batch->band_samples());
+}
+
+}  // namespace
+
+std::uint64_t simulation_steps(const FilmOptions& film, const SceneSampling& sampling) {
+  return steps_of(film, sampling).all();
+}
+
+Result<void> simulate(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
+                      std::uint64_t first, std::uint64_t count, const Execution& how) {
+  const Steps steps = steps_of(film.options(), sampling);
+  if (sampling.shards == 0 || sampling.shard >= sampling.shards) {
+    return make_error(ErrorCode::kBadArgument, "there is no shard {} of {}", sampling.shard, sampling.shards);
+  }
+  if (first > steps.all() || count > steps.all() - first) {
+    return make_error(ErrorCode::kBadArgument, "the simulation has {} steps, not {} from the {}th on",
+                      steps.all(), count, first);
+  }
+  std::mutex mutex;
+  Result<void> result;
+  tiles::for_blocks(count, {how.threads, 1}, [&](std::size_t begin, std::size_t n) {
+    for (std::size_t i = begin; i < begin + n; ++i) {
+      Result<void> done = make_error(ErrorCode::kOutOfMemory, "no memory to draw samples");
+      try {
+        done = run_step(scene, sampling, film, steps, first + i);
+      } catch (const std::bad_alloc&) {  // the error that stands there already
+      }
+      if (done) continue;
+      const std::scoped_lock lock(mutex);
+      if (result) result = done;
+      return;
+    }
+  });
+  return result;
+}
+
+Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film, const Execution& how) {
+  auto xyz = FilmDevelopment::create(film, FilmLayer::kXyz);
+  if (!xyz) return xyz.error();
+  if (const auto updated = xyz->update(how); !updated) return updated.error();
+  const PixelWindow w = film.window();
+  SceneError out;
+  double squares_y = 0;
+  double squares = 0;
+  std::mutex mutex;
+  tiles::for_blocks(
+      static_cast<std::size_t>(w.height()), {how.threads, 1}, [&](std::size_t first, std::size_t n) {
+        for (std::size_t row = first; row < first + n; ++row) {
+          SceneError line;
+          double line_y = 0;
+          double line_all = 0;
+          const int y = w.y0 + static_cast<int>(row);
+          for (int x = w.x0; x < w.x1; ++x) {
+            const auto truth = scene.xyz(film.options(), x, y);
+            line.mean_luminance += truth[1];
+            for (std::size_t c = 0; c < 3; ++c) {
+              const double error = static_cast<double>(xyz->at(c, x, y)) - truth[c];
+              line_all += error * error;
+              if (c == 1) line_y += error * error;
+            }
+            const auto got = static_cast<double>(xyz->at(1, x, y));
+            if (truth[1] != 0) {
+              line.largest_relative = std::max(line.largest_relative, std::abs(got / truth[1] - 1));
+            }
+            line.black_pixels += truth[1] == 0 && got == 0 ? 1 : 0;
+            line.wrong_black += (truth[1] == 0) != (got == 0) ? 1 : 0;
+          }
+          const std::scoped_lock lock(mutex);
+          out.mean_luminance += line.mean_luminance;
+          out.largest_relative = std::max(out.largest_relative, line.largest_relative);
+          out.black_pixels += line.black_pixels;
+          out.wrong_black += line.wrong_black;
+          squares_y += line_y;
+          squares += line_all;
+        }
+      });
+  const double pixels = static_cast<double>(w.width()) * w.height();
+  out.mean_luminance /= pixels;
+  out.rms_luminance = std::sqrt(squares_y / pixels);
+  out.rms_xyz = std::sqrt(squares / (3 * pixels));
+  return out;
+}
+
+}  // namespace spectile

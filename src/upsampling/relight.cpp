@@ -1,0 +1,147 @@
+// A texture's colour under another light, without its spectra.
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/color/color_matrix.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/relight_rows.hpp"
+#include "src/lanes/shape.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+using kernels::kSmitsRow;
+
+constexpr double kRounding = 0x1p-24;
+
+// Lanes whose coefficients stay in the first-level cache between being found and being used.
+constexpr std::size_t kChunk = 512;
+
+}  // namespace
+
+Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector& under, const Matrix3& to) {
+  SPECTILE_TRY(shape::bands_of("the projector", under.bands(), upsampler.bands()));
+  if (upsampler.quantity() == Quantity::kIlluminant) {
+    return make_error(ErrorCode::kBadArgument, "only reflectances can be relit, not light");
+  }
+  Relighter out;
+  out.upsampler_ = &upsampler;
+  out.projector_ = &under;
+  out.matrix_ = to;
+  if (!rows::mixes_bases(upsampler)) return out;
+  auto table = FloatBuffer::create(3 * kSmitsRow);
+  if (!table) return table.error();
+  out.table_ = *std::move(table);
+  std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
+  const auto weights = under.weights();
+  const auto basis = upsampler.basis();
+  const std::size_t bands = weights.size();
+  double magnitude[3] = {};  // of what a component is the sum of, at most
+  double clamped[3] = {};    // what the long way's clamping adds at most
+  for (std::size_t j = 0; j < 7; ++j) {
+    double sum[3] = {};
+    double size[3] = {};
+    double below[3] = {};
+    for (std::size_t b = 0; b < bands; ++b) {
+      const std::array<double, 3> w = times(to, weights[b]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        double terms = 0;
+        for (std::size_t i = 0; i < 3; ++i) terms += std::abs(to[3 * k + i]) * weights[b][i];
+        sum[k] += w[k] * basis[b][j];
+        size[k] += terms * std::abs(basis[b][j]);
+        if (std::isfinite(upsampler.lowest())) below[k] += terms * std::max(0.0, -basis[b][j]);
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.table_.data()[k * kSmitsRow + j] = static_cast<float>(sum[k]);
+      magnitude[k] = std::max(magnitude[k], size[k]);
+      clamped[k] = std::max(clamped[k], below[k]);
+    }
+  }
+  // The long way: the table, three products and two sums a sample; a weight, a product and the runs of sums;
+  // a matrix of four roundings. The direct way: as many as a sample. The weights sum to the largest
+  // component.
+  const double roundings =
+      6 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 6;
+  for (std::size_t k = 0; k < 3; ++k) out.bound_[k] = roundings * kRounding * magnitude[k] + clamped[k];
+  return out;
+}
+
+namespace rows {
+
+void relight(const kernels::KernelTable& kernels, const Relighter& relighter, const float* const rgb[3],
+             float* const out[3], std::size_t n) {
+  const Upsampler& upsampler = relighter.upsampler();
+  if (mixes_bases(upsampler)) {
+    const float* const table = relighter.table().data();
+    if (upsampler.method() == Method::kMallett) {
+      float matrix[9];
+      for (std::size_t k = 0; k < 9; ++k) matrix[k] = table[k / 3 * kSmitsRow + 4 + k % 3];
+      kernels.transform3(out, rgb, matrix, n);
+    } else {
+      kernels.smits_fold(out, rgb, table, n);
+    }
+    return;
+  }
+  alignas(64) float c[3][kChunk];
+  alignas(64) float scales[kChunk];
+  std::uint64_t unsolved[kChunk / kernels::kLanes];
+  const Coefficients found = {{c[0], c[1], c[2]}, has_scale(upsampler) ? scales : nullptr};
+  const float* const read[3] = {c[0], c[1], c[2]};
+  const Projector& projector = relighter.projector();
+  const std::array<float, 9> matrix = color::to_float(relighter.matrix());
+  for (std::size_t at = 0; at < n; at += kChunk) {
+    const std::size_t lanes = std::min(kChunk, n - at);
+    const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
+    float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
+    const float* const xyz[3] = {to[0], to[1], to[2]};
+    solve(kernels, upsampler, in, found, unsolved, lanes);
+    kernels.sigmoid_project(to, read, found.scale, upsampler.sigmoid()->table.rows, false,
+                            projector.float_weights(), projector.bands().count(), lanes);
+    kernels.transform3(to, xyz, matrix.data(), lanes);
+  }
+}
+
+void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& relighter,
+                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n) {
+  const Upsampler& upsampler = relighter.upsampler();
+  const Projector& projector = relighter.projector();
+  const std::array<float, 9> matrix = color::to_float(relighter.matrix());
+  alignas(64) float c[3][kernels::kLanes];
+  alignas(64) float scales[kernels::kLanes];
+  const Coefficients found = {{c[0], c[1], c[2]}, has_scale(upsampler) ? scales : nullptr};
+  const float* const read[3] = {c[0], c[1], c[2]};
+  for (std::size_t at = 0; at < n; at += kernels::kLanes) {
+    const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
+    float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
+    const float* const xyz[3] = {to[0], to[1], to[2]};
+    std::uint64_t unsolved = 0;
+    solve(kernels, upsampler, in, found, &unsolved, kernels::kLanes);
+    expand_blocks(kernels, upsampler, read, found.scale, spectra, 1, false);
+    kernels.project(to[0], to[1], to[2], spectra, projector.float_weights(), projector.bands().count(), 1);
+    kernels.transform3(to, xyz, matrix.data(), kernels::kLanes);
+  }
+}
+
+}  // namespace rows
+
+Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& how) {
+  SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
+  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
+  for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  tiles::for_blocks(blocks_for(rgb.lanes), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    const float* const in[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
+    float* const to[3] = {out.c[0] + at, out.c[1] + at, out.c[2] + at};
+    rows::relight(**table, relighter, in, to, count * kLanesPerBlock);
+  });
+  return {};
+}
+
+}  // namespace spectile

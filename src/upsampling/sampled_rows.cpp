@@ -1,0 +1,195 @@
+// SampledRows: what turns a method's coefficients into samples at chosen places of the spectrum.
+#include "src/upsampling/sampled_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/spectra/planned_bands.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+#include "src/upsampling/working_space.hpp"
+
+namespace spectile::rows {
+namespace {
+
+using kernels::kSigmoidLambda;
+using kernels::kSigmoidRow;
+using kernels::kSigmoidWhite;
+
+/// A place between two bands: share `t` of the way from the centre of `band` to the next one's.
+struct Place {
+  std::size_t band = 0;
+  double t = 0;
+};
+
+Place place_of(const Bands& bands, double wavelength_nm) {
+  const auto list = bands.list();
+  const auto after = std::upper_bound(list.begin(), list.end(), wavelength_nm,
+                                      [](double nm, const Band& band) { return nm < band.centre_nm; });
+  if (after == list.begin()) return {};
+  const auto at = static_cast<std::size_t>(after - list.begin()) - 1;
+  if (after == list.end()) return {at, 0};
+  return {at, (wavelength_nm - list[at].centre_nm) / (list[at + 1].centre_nm - list[at].centre_nm)};
+}
+
+/// Linear between the values of two bands; the first's own where the place is its centre.
+double between(const Place& place, double first, double next) {
+  return place.t == 0 ? first : (1 - place.t) * first + place.t * next;
+}
+
+float lambda_of(const SigmoidModel& model, double wavelength_nm) {
+  return std::clamp(static_cast<float>(sigmoid_lambda(wavelength_nm)), model.lowest_lambda,
+                    model.highest_lambda);
+}
+
+/// A light of luminance 1 in bands that need not be those the method was made for. A plan's emission values
+/// are on a scale of their own, where luminance is 1 over the plan's.
+Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsampler,
+                                     const MeasuredSpectrum& light) {
+  const UpsamplerOptions& made = upsampler.options();
+  const bool planned = bands.plan() != nullptr || upsampler.bands().plan() != nullptr;
+  const auto space = working_space(planned ? bands : upsampler.bands(), upsampler.quantity(), made.primaries,
+                                   light, made.observer);
+  if (!space) return space.error();
+  if (planned) return space->white;
+  auto out = light_samples(light, bands);
+  if (!out) return out;
+  for (double& v : *out) v /= space->luminance;
+  return out;
+}
+
+}  // namespace
+
+Result<SampledRows> SampledRows::of_size(const Upsampler& upsampler, std::size_t count) {
+  SampledRows out;
+  out.count_ = count;
+  out.sigmoid_ = !mixes_bases(upsampler);
+  out.has_scale_ = rows::has_scale(upsampler);
+  out.white_ = out.sigmoid_ && upsampler.quantity() == Quantity::kIlluminant;
+  out.lowest_ = upsampler.lowest();
+  out.row_floats_ = out.sigmoid_ ? kSigmoidRow : kernels::kSmitsRow;
+  auto table = FloatBuffer::create(count * out.row_floats_);
+  if (!table) return table.error();
+  out.table_ = *std::move(table);
+  std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
+  return out;
+}
+
+void SampledRows::copy(const Upsampler& upsampler) {
+  const float* const from = sigmoid_ ? upsampler.sigmoid()->table.rows : upsampler.table();
+  std::copy_n(from, count_ * row_floats_, table_.data());
+}
+
+void SampledRows::set_limits() {
+  const std::size_t first = sigmoid_ ? kSigmoidWhite : 0;
+  const std::size_t end = sigmoid_ ? kSigmoidWhite + 1 : kernels::kSmitsRow;
+  float lambda = 1;
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t k = first; k < end; ++k) largest_ = std::max(largest_, std::abs(row(i)[k]));
+    if (sigmoid_) lambda = std::max(lambda, std::abs(row(i)[kSigmoidLambda]));
+  }
+  const float most = std::numeric_limits<float>::max() / std::max(largest_, 1.0F);
+  if (!sigmoid_) {
+    // Weights are differences of two components.
+    limits_ = {most / 2, most / 2, most / 2, 0};
+    return;
+  }
+  // The polynomial stays below 3 * 2^61, its square finite.
+  limits_ = {0x1p61F / (lambda * lambda), 0x1p61F / lambda, 0x1p61F, most};
+  black_ = {0, 0, -kernels::kSigmoidFar, 0};
+}
+
+Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& bands) {
+  auto out = of_size(upsampler, bands.count());
+  if (!out) return out.error();
+  if (bands == upsampler.bands()) {
+    out->copy(upsampler);
+  } else if (!out->sigmoid_) {
+    const auto other =
+        Upsampler::create(upsampler.method(), upsampler.quantity(), bands, upsampler.options());
+    if (!other) return other.error();
+    out->copy(*other);
+  } else {
+    const UpsamplerOptions& made = upsampler.options();
+    const MeasuredSpectrum light = made.light ? *made.light : *illuminant("D65");
+    std::vector<double> white(bands.count(), 1.0);
+    if (out->white_) {
+      auto samples = white_in(bands, upsampler, light);
+      if (!samples) return samples.error();
+      white = *std::move(samples);
+    }
+    for (std::size_t b = 0; b < bands.count(); ++b) {
+      out->row(b)[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), bands[b].centre_nm);
+      out->row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
+    }
+  }
+  out->set_limits();
+  return out;
+}
+
+Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const double> wavelengths_nm) {
+  auto out = of_size(upsampler, wavelengths_nm.size());
+  if (!out) return out.error();
+  const std::size_t last = upsampler.bands().count() - 1;
+  for (std::size_t i = 0; i < wavelengths_nm.size(); ++i) {
+    const Place place = place_of(upsampler.bands(), wavelengths_nm[i]);
+    const std::size_t next = std::min(place.band + 1, last);
+    float* const row = out->row(i);
+    if (out->sigmoid_) {
+      const float* const own = upsampler.sigmoid()->table.rows;
+      const auto white = [own](std::size_t b) {
+        return static_cast<double>(own[b * kSigmoidRow + kSigmoidWhite]);
+      };
+      row[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), wavelengths_nm[i]);
+      row[kSigmoidWhite] = static_cast<float>(between(place, white(place.band), white(next)));
+    } else {
+      const auto basis = upsampler.basis();
+      for (std::size_t k = 0; k < 7; ++k) {
+        row[k] = static_cast<float>(between(place, basis[place.band][k], basis[next][k]));
+      }
+    }
+  }
+  out->set_limits();
+  return out;
+}
+
+float SampledRows::bound(const std::array<float, 4>& largest) const noexcept {
+  // With room for rounding.
+  if (!sigmoid_) return 3 * std::max({largest[0], largest[1], largest[2]}) * largest_;
+  return 1.5F * (has_scale_ ? largest[3] : 1.0F) * largest_;
+}
+
+bool SampledRows::linear(bool any_component) const noexcept {
+  if (sigmoid_) return false;
+  if (std::isinf(lowest_)) return true;
+  if (any_component) return false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (std::any_of(basis(i), basis(i) + kernels::kSmitsRow, [](float sample) { return sample < 0; }))
+      return false;
+  }
+  return true;
+}
+
+void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* const c[3],
+                              const float* scale, void* const* out, bool half, std::size_t n) const {
+  if (sigmoid_) {
+    const auto kernel = half ? kernels.sigmoid_rows_half : kernels.sigmoid_rows_float;
+    kernel(out, c, scale, table_.data(), white_, count_, n);
+    return;
+  }
+  const auto kernel = half ? kernels.smits_rows_half : kernels.smits_rows_float;
+  const float lowest = half ? std::max(lowest_, -kernels::kHalfMax) : lowest_;
+  kernel(out, c, table_.data(), lowest, count_, n);
+}
+
+void SampledRows::expand_blocks(const kernels::KernelTable& kernels, const float* const c[3],
+                                const float* scale, float* spectra, std::size_t blocks) const {
+  if (sigmoid_) {
+    kernels.sigmoid_blocks(spectra, c, scale, table_.data(), white_, count_, blocks, false);
+  } else {
+    kernels.smits_blocks(spectra, c, table_.data(), lowest_, count_, blocks, false);
+  }
+}
+
+}  // namespace spectile::rows

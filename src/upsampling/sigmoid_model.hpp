@@ -1,0 +1,38 @@
+// What the sigmoid kernels need for given bands, light, observer and primaries.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kernels/abi.hpp"
+#include "src/upsampling/working_space.hpp"
+
+namespace spectile {
+
+/// Tables for the kernels, and the memory that they lie in.
+struct SigmoidModel {
+  FloatBuffer memory;
+  kernels::SigmoidTable table;
+  /// Least and greatest lambda of the bands; beyond them a spectrum keeps its value at the end.
+  float lowest_lambda = 0;
+  float highest_lambda = 0;
+  bool has_cube = false;  ///< some sigmoid has every colour with components from 0 to 1
+};
+
+/// Lambda of the polynomials. Units: nm.
+constexpr double sigmoid_lambda(double wavelength_nm) {
+  return (wavelength_nm - 550.0) / 150.0;
+}
+
+/// Tables whose sums over the bands give RGB of the space. Errors: kOutOfMemory.
+Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space);
+
+/// Coefficients of the start table's nodes for a space, found from grey without any start:
+/// [3][steps][steps][steps][3]; see sigmoid_node_rgb() for their colours.
+std::vector<double> sigmoid_start_nodes(const Bands& bands, const WorkingSpace& space, int steps);
+
+/// Colour at a point of the table's grid. `most` is the channel with the largest component, which is
+/// 1 - (1 - q0)^2; the next ones, cyclically, are q1^2 and q2^2 times that.
+std::array<double, 3> sigmoid_node_rgb(std::size_t most, const std::array<double, 3>& q);
+
+}  // namespace spectile

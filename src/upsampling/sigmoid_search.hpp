@@ -1,0 +1,38 @@
+// Sigmoid coefficients of one colour in double, with derivatives: how the tables of the fast search are made.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "src/upsampling/working_space.hpp"
+
+namespace spectile {
+
+using Triple = std::array<double, 3>;
+
+/// Sums over bands of weight times sigmoid, as a function of three coefficients.
+class SigmoidSums {
+ public:
+  SigmoidSums(const Bands& bands, const WorkingSpace& space);
+
+  /// Sums, and their derivatives [rgb][coefficient].
+  Triple at(const Triple& c, Matrix3& jacobian) const;
+  /// Second derivatives [rgb][coefficient, coefficient].
+  std::array<Matrix3, 3> second(const Triple& c) const;
+
+  /// Moves `c` to where the sums are `rgb`, by the method of Levenberg and Marquardt, in so many trials at
+  /// most; whether it got there.
+  bool solve(const Triple& rgb, Triple& c, int trials = 200) const;
+  /// The part of the line from (grey, grey, grey), above 0 and below 1, to `rgb` that sigmoids have; c
+  /// becomes those there.
+  double reach(const Triple& rgb, double grey, Triple& c) const;
+  /// The same without a start: along the line from grey.
+  bool solve_from_grey(const Triple& rgb, Triple& c) const;
+
+ private:
+  std::vector<double> lambda_;
+  std::vector<Triple> weights_;
+};
+
+}  // namespace spectile

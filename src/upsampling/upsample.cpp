@@ -1,0 +1,151 @@
+// Upsampling of batches: colours to coefficients, coefficients to spectra.
+#include <algorithm>
+#include <spectile/color/colorimetry.hpp>
+#include <spectile/upsampling/upsample.hpp>
+
+#include "src/dispatch/dispatch.hpp"
+#include "src/color/color_matrix.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/lanes/shape.hpp"
+#include "src/lanes/tiles.hpp"
+
+namespace spectile {
+namespace {
+
+static_assert(kLanesPerBlock == kernels::kLanes);
+
+// Larger batches than this go round the caches: they would only push out what is used next.
+constexpr std::size_t kStreamingBytes = std::size_t{64} << 20;
+
+// Lanes whose coefficients stay in the first-level cache between being found and being used.
+constexpr std::size_t kChunk = 512;
+
+/// Coefficients of a chunk.
+struct Chunk {
+  alignas(64) float c[3][kChunk];
+  alignas(64) float scale[kChunk];
+  std::uint64_t unsolved[kChunk / kLanesPerBlock];
+};
+
+Result<void> check(const Upsampler& upsampler, const ColorView& in, const SampledSpectraSpan& spectra) {
+  SPECTILE_TRY(shape::bands_of("the upsampler", upsampler.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_lanes(in.lanes, spectra.lanes));
+  SPECTILE_TRY(shape::aligned(spectra.data));
+  for (const float* plane : in.c) SPECTILE_TRY(shape::aligned(plane));
+  return {};
+}
+
+bool streams(Stores stores, const SampledSpectraSpan& spectra) {
+  const std::size_t bytes = SampledSpectraView(spectra).floats() * sizeof(float);
+  return stores == Stores::kStreaming || (stores == Stores::kAuto && bytes > kStreamingBytes);
+}
+
+/// Runs a tile of blocks through a matrix, where there is one, and the method.
+void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler, const ColorView& in,
+                   const float* matrix, float* spectra, std::size_t first, std::size_t count, bool stream) {
+  const std::size_t bands = upsampler.bands().count();
+  if (rows::mixes_bases(upsampler) && matrix == nullptr) {
+    const std::size_t at = first * kLanesPerBlock;
+    const float* const rgb[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
+    rows::expand_blocks(table, upsampler, rgb, nullptr, spectra + at * bands, count, stream);
+    return;
+  }
+  Chunk chunk;
+  float* const c[3] = {chunk.c[0], chunk.c[1], chunk.c[2]};
+  const float* const read[3] = {chunk.c[0], chunk.c[1], chunk.c[2]};
+  const rows::Coefficients out = {{c[0], c[1], c[2]}, rows::has_scale(upsampler) ? chunk.scale : nullptr};
+  for (std::size_t block = first; block < first + count; block += kChunk / kLanesPerBlock) {
+    const std::size_t blocks = std::min(kChunk / kLanesPerBlock, first + count - block);
+    const std::size_t at = block * kLanesPerBlock;
+    const float* const source[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
+    if (matrix != nullptr) table.transform3(c, source, matrix, blocks * kLanesPerBlock);
+    rows::solve(table, upsampler, matrix != nullptr ? read : source, out, chunk.unsolved,
+                blocks * kLanesPerBlock);
+    rows::expand_blocks(table, upsampler, read, out.scale, spectra + at * bands, blocks, stream);
+  }
+}
+
+Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* matrix,
+                 const SampledSpectraSpan& spectra, Stores stores, const Execution& how) {
+  SPECTILE_TRY(check(upsampler, in, spectra));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const bool stream = streams(stores, spectra);
+  tiles::for_blocks(blocks_for(in.lanes), how, [&](std::size_t first, std::size_t count) {
+    upsample_tile(**table, upsampler, in, matrix, spectra.data, first, count, stream);
+  });
+  return {};
+}
+
+}  // namespace
+
+Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
+                           Stores stores, const Execution& how) {
+  return run(upsampler, rgb, nullptr, spectra, stores, how);
+}
+
+Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
+                          Stores stores, const Execution& how) {
+  const std::array<float, 9> matrix = color::to_float(xyz_to_srgb_matrix());
+  return run(upsampler, xyz, matrix.data(), spectra, stores, how);
+}
+
+Result<CoefficientLanes> CoefficientLanes::create(const Upsampler& upsampler, std::size_t lanes) {
+  CoefficientLanes out;
+  auto c = ColorLanes::create(lanes);
+  if (!c) return c.error();
+  out.c = *std::move(c);
+  if (rows::has_scale(upsampler)) {
+    auto scale = ScalarLanes::create(lanes);
+    if (!scale) return scale.error();
+    out.scale = *std::move(scale);
+  }
+  return out;
+}
+
+Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, CoefficientLanes& out,
+                          const Execution& how) {
+  SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.c.lanes()));
+  if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.scale.lanes()));
+  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const std::size_t blocks = blocks_for(rgb.lanes);
+  std::vector<std::uint64_t> unsolved(blocks);
+  const ColorSpan c = out.c.span();
+  float* const scale = rows::has_scale(upsampler) ? out.scale.span().data : nullptr;
+  tiles::for_blocks(blocks, how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    const float* const source[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
+    const rows::Coefficients row = {{c.c[0] + at, c.c[1] + at, c.c[2] + at},
+                                    scale == nullptr ? nullptr : scale + at};
+    rows::solve(**table, upsampler, source, row, unsolved.data() + first, count * kLanesPerBlock);
+  });
+  out.unsolved = {};
+  for (std::size_t i = 0; i < rgb.lanes; ++i) {
+    if (((unsolved[i / kLanesPerBlock] >> (i % kLanesPerBlock)) & 1U) == 0) continue;
+    if (out.unsolved.outside++ == 0) out.unsolved.first = static_cast<std::int64_t>(i);
+  }
+  return {};
+}
+
+Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraSpan spectra,
+                    Stores stores, const Execution& how) {
+  const ColorView c = in.c.view();
+  SPECTILE_TRY(check(upsampler, c, spectra));
+  if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(c.lanes, in.scale.lanes()));
+  const auto table = dispatch::active();
+  if (!table) return table.error();
+  const bool stream = streams(stores, spectra);
+  const float* const scale = rows::has_scale(upsampler) ? in.scale.view().data : nullptr;
+  const std::size_t bands = upsampler.bands().count();
+  tiles::for_blocks(blocks_for(c.lanes), how, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * kLanesPerBlock;
+    const float* const row[3] = {c.c[0] + at, c.c[1] + at, c.c[2] + at};
+    rows::expand_blocks(**table, upsampler, row, scale == nullptr ? nullptr : scale + at,
+                        spectra.data + at * bands, count, stream);
+  });
+  return {};
+}
+
+}  // namespace spectile

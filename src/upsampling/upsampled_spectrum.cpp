@@ -1,0 +1,93 @@
+// UpsampledSpectrum from an RGB colour, by the upsampling methods.
+#include <cmath>
+#include <spectile/spectra/spectrum.hpp>
+
+#include "src/base/errors.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+
+namespace spectile {
+namespace {
+
+Result<UpsampledSpectrum> of_quantity(const Upsampler& upsampler, Quantity quantity,
+                                      const std::array<double, 3>& rgb) {
+  if (upsampler.quantity() != quantity) {
+    return make_error(ErrorCode::kBadArgument, "the upsampler makes {} spectra, not {} ones",
+                      to_string(upsampler.quantity()), to_string(quantity));
+  }
+  return UpsampledSpectrum::from_rgb(upsampler, rgb);
+}
+
+Error cannot_make(const Upsampler& upsampler, const std::array<double, 3>& rgb) {
+  return make_error(ErrorCode::kBadArgument, "RGB {}, {}, {} is no colour that {} makes as {}", rgb[0],
+                    rgb[1], rgb[2], to_string(upsampler.method()), to_string(upsampler.quantity()));
+}
+
+}  // namespace
+
+Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler,
+                                                      const std::array<double, 3>& rgb) {
+  auto lanes = ColorLanes::create(1);
+  if (!lanes) return lanes.error();
+  for (std::size_t k = 0; k < 3; ++k) {
+    lanes->at(0, k) = static_cast<float>(rgb[k]);
+    if (!std::isfinite(lanes->at(0, k))) return cannot_make(upsampler, rgb);
+  }
+  const auto report = limit_gamut(upsampler, lanes->span(), OutOfGamut::kKeep);
+  if (!report) return report.error();
+  if (report->outside > 0) return cannot_make(upsampler, rgb);
+  UpsampledSpectrum out;
+  out.method_ = upsampler.method();
+  out.quantity_ = upsampler.quantity();
+  out.rgb_ = rgb;
+  out.sigmoid_ = !rows::mixes_bases(upsampler);
+  const Bands& bands = upsampler.bands();
+  out.first_nm_ = bands[0].centre_nm;
+  out.last_nm_ = bands[bands.count() - 1].centre_nm;
+  std::vector<double> centres;
+  for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
+  std::vector<double> values;
+  if (out.sigmoid_) {
+    auto found = CoefficientLanes::create(upsampler, 1);
+    if (!found) return found.error();
+    SPECTILE_TRY(spectile::coefficients(upsampler, lanes->view(), *found));
+    for (std::size_t k = 0; k < 3; ++k) out.c_[k] = found->c.at(0, k);
+    if (rows::has_scale(upsampler)) out.scale_ = found->scale[0];
+    if (upsampler.quantity() != Quantity::kIlluminant) return out;
+    const float* const own = upsampler.sigmoid()->table.rows;
+    for (std::size_t b = 0; b < bands.count(); ++b) {
+      values.push_back(own[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
+    }
+  } else {
+    auto spectra = SampledSpectra::create(bands, 1);
+    if (!spectra) return spectra.error();
+    SPECTILE_TRY(upsample_srgb(upsampler, lanes->view(), spectra->span()));
+    for (std::size_t b = 0; b < bands.count(); ++b) values.push_back(spectra->at(0, b));
+  }
+  auto table = MeasuredSpectrum::from_samples(centres, values);
+  if (!table) return table.error();
+  out.table_ = std::make_shared<const MeasuredSpectrum>(*std::move(table));
+  return out;
+}
+
+Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb) {
+  for (const double v : rgb) {
+    if (!(v >= 0 && v <= 1)) {
+      return make_error(ErrorCode::kBadArgument, "an albedo's components are 0 to 1, not {}, {}, {}", rgb[0],
+                        rgb[1], rgb[2]);
+    }
+  }
+  return of_quantity(upsampler, Quantity::kReflectance, rgb);
+}
+
+Result<UpsampledSpectrum> rgb_unbounded_spectrum(const Upsampler& upsampler,
+                                                 const std::array<double, 3>& rgb) {
+  return of_quantity(upsampler, Quantity::kUnbounded, rgb);
+}
+
+Result<UpsampledSpectrum> rgb_illuminant_spectrum(const Upsampler& upsampler,
+                                                  const std::array<double, 3>& rgb) {
+  return of_quantity(upsampler, Quantity::kIlluminant, rgb);
+}
+
+}  // namespace spectile

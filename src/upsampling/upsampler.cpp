@@ -1,0 +1,204 @@
+// Upsampler: a method prepared for given bands, light, observer and primaries.
+#include <algorithm>
+#include <limits>
+#include <spectile/upsampling/upsample.hpp>
+
+#include "kernels/abi.hpp"
+#include "src/base/errors.hpp"
+#include "src/data/tables.hpp"
+#include "src/spectra/planned_bands.hpp"
+#include "src/upsampling/exact_basis.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
+#include "src/upsampling/working_space.hpp"
+
+namespace spectile {
+namespace {
+
+constexpr struct {
+  Method method;
+  const char* name;
+} kMethods[] = {{Method::kSmits, "smits"},
+                {Method::kSmits1999, "smits1999"},
+                {Method::kSmitsExact, "smits-exact"},
+                {Method::kMallett, "mallett"},
+                {Method::kSigmoid, "sigmoid"}};
+
+constexpr struct {
+  Quantity quantity;
+  const char* name;
+} kQuantities[] = {{Quantity::kReflectance, "reflectance"},
+                   {Quantity::kUnbounded, "unbounded"},
+                   {Quantity::kIlluminant, "illuminant"}};
+
+/// D65 scaled so that its luminance equals that of a spectrum that is 1 everywhere.
+MeasuredSpectrum d65_of_luminance_one() {
+  const MeasuredSpectrum d65 = *illuminant("D65");
+  const data::MatchingFunctions& observer = data::kCie1931;
+  double of_light = 0;
+  double of_one = 0;
+  for (std::size_t i = 0; i < observer.y_bar.size(); ++i) {
+    const double lambda_nm = observer.first_nm + static_cast<double>(i) * observer.step_nm;
+    of_light += observer.y_bar[i] * d65.at(lambda_nm);
+    of_one += observer.y_bar[i];
+  }
+  return d65.scaled(of_one / of_light);
+}
+
+const data::SmitsData& data_for(Method method, Quantity quantity) {
+  if (method == Method::kSmits1999) return data::kSmits1999;
+  return quantity == Quantity::kIlluminant ? data::kSmitsIlluminant : data::kSmitsReflectance;
+}
+
+/// The published bases of Smits, averaged over the bands.
+Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands& bands) {
+  const data::SmitsData& data = data_for(method, quantity);
+  const bool times_light = method == Method::kSmits1999 && quantity == Quantity::kIlluminant;
+  const MeasuredSpectrum light = d65_of_luminance_one();
+  BasisTable out(bands.count());
+  for (std::size_t k = 0; k < 7; ++k) {
+    const auto basis = MeasuredSpectrum::from_samples(data.wavelengths_nm, data.basis[k]);
+    if (!basis) return basis.error();
+    for (std::size_t b = 0; b < bands.count(); ++b) {
+      const Band& band = bands[b];
+      const bool averages = times_light && !bands.are_points();
+      const double sample =
+          averages ? product_integral(*basis, light, band.lower_nm, band.upper_nm) / band.width_nm()
+                   : sample_in(*basis, bands, b) * (times_light ? light.at(band.centre_nm) : 1);
+      out[b][k] = data.scale * sample;
+    }
+  }
+  return out;
+}
+
+/// Luminance of red, green and blue, for the light's white as the whole visible range shows it.
+Result<std::array<float, 3>> luminance_weights(const UpsamplerOptions& options,
+                                               const MeasuredSpectrum& light) {
+  const auto visible = Bands::uniform(360, 830, 1);
+  if (!visible) return visible.error();
+  const auto space =
+      working_space(*visible, Quantity::kReflectance, options.primaries, light, options.observer);
+  if (!space) return space.error();
+  std::array<float, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(space->rgb_to_xyz[3 + k]);
+  return out;
+}
+
+/// Whether the tables in src/data are those asked for.
+bool is_precomputed(Quantity quantity, const Bands& bands, const UpsamplerOptions& options) {
+  return quantity != Quantity::kIlluminant && bands == Bands() && options.primaries == kRec709 &&
+         !options.light && options.observer == Observer::kCie1931;
+}
+
+BasisTable from_rows(data::BasisRows rows) {
+  BasisTable out;
+  for (const double(&row)[7] : rows) out.push_back(std::to_array(row));
+  return out;
+}
+
+Result<BasisTable> exact_basis(Method method, Quantity quantity, const Bands& bands,
+                               const UpsamplerOptions& options, const WorkingSpace& space) {
+  const bool smits = method == Method::kSmitsExact;
+  if (is_precomputed(quantity, bands, options)) {
+    return from_rows(smits ? data::kSmitsExact : data::kMallettExact);
+  }
+  auto basis = smits ? smoothest_basis(bands, space) : primary_decomposition(bands, space);
+  if (basis) return *std::move(basis);
+  return make_error(ErrorCode::kBadArgument,
+                    "{} has no spectra between 0 and 1 with the colours of this RGB space's corners over the "
+                    "bands {}; sigmoid makes every colour that is possible{}",
+                    to_string(method), bands.description(),
+                    options.primaries == kRec709 ? ", smits takes any bands" : "");
+}
+
+}  // namespace
+
+Result<Method> parse_method(std::string_view name) {
+  std::string known;
+  for (const auto& method : kMethods) {
+    if (name == method.name) return method.method;
+    known += (known.empty() ? "" : ", ") + std::string(method.name);
+  }
+  return make_error(ErrorCode::kUnknownName, "method \"{}\" is unknown; there are {}", name, known);
+}
+
+Result<Quantity> parse_quantity(std::string_view name) {
+  std::string known;
+  for (const auto& quantity : kQuantities) {
+    if (name == quantity.name) return quantity.quantity;
+    known += (known.empty() ? "" : ", ") + std::string(quantity.name);
+  }
+  return make_error(ErrorCode::kUnknownName, "quantity \"{}\" is unknown; there are {}", name, known);
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& method : kMethods) names.emplace_back(method.name);
+  return names;
+}
+
+std::string_view to_string(Method method) {
+  return kMethods[static_cast<std::size_t>(method)].name;
+}
+
+std::string_view to_string(Quantity quantity) {
+  return kQuantities[static_cast<std::size_t>(quantity)].name;
+}
+
+Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Bands& bands,
+                                    NegativeSamples negative) {
+  UpsamplerOptions options;
+  options.negative = negative;
+  return create(method, quantity, bands, options);
+}
+
+Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Bands& bands,
+                                    const UpsamplerOptions& options) {
+  const bool published = method == Method::kSmits || method == Method::kSmits1999;
+  if (published && (options.light || options.observer != Observer::kCie1931)) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "{} is published for D65 and the 2 degree observer; smits-exact, mallett and sigmoid take "
+        "others",
+        to_string(method));
+  }
+  if ((published || method == Method::kMallett) && !(options.primaries == kRec709)) {
+    return make_error(ErrorCode::kBadArgument,
+                      "{} is published for the primaries of sRGB; smits-exact and sigmoid take others",
+                      to_string(method));
+  }
+  const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
+  const auto space = working_space(bands, quantity, options.primaries, light, options.observer);
+  if (!space && !published) return space.error();
+  Upsampler out;
+  out.method_ = method;
+  out.quantity_ = quantity;
+  out.bands_ = bands;
+  out.options_ = options;
+  out.rgb_to_xyz_ = space ? space->rgb_to_xyz : srgb_to_xyz_matrix();
+  const auto luminance = luminance_weights(options, light);
+  if (!luminance) return luminance.error();
+  out.luminance_ = *luminance;
+  out.lowest_ = options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
+  if (method == Method::kSigmoid) {
+    auto model = sigmoid_model(bands, *space);
+    if (!model) return model.error();
+    out.sigmoid_ = *std::move(model);
+    return out;
+  }
+  auto basis = published ? published_basis(method, quantity, bands)
+                         : exact_basis(method, quantity, bands, options, *space);
+  if (!basis) return basis.error();
+  out.basis_ = *std::move(basis);
+  auto table = FloatBuffer::create(bands.count() * kernels::kSmitsRow);
+  if (!table) return table.error();
+  out.table_ = *std::move(table);
+  std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
+  for (std::size_t b = 0; b < bands.count(); ++b) {
+    for (std::size_t k = 0; k < 7; ++k) {
+      out.table_.data()[b * kernels::kSmitsRow + k] = static_cast<float>(out.basis_[b][k]);
+    }
+  }
+  return out;
+}
+
+}  // namespace spectile

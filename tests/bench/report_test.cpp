@@ -1,0 +1,421 @@
+// A benchmark's report as JSON and HTML: everything in it, nothing that breaks it, numbers as people read
+// them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/text.hpp"
+#include "tests/bench/report_support.hpp"
+
+namespace spectile::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const BenchmarkReport& full() {
+  static const BenchmarkReport report = made_up_report();
+  return report;
+}
+
+const std::string& full_page() {
+  static const std::string page = benchmark_to_html(full());
+  return page;
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
+    ++count;
+  return count;
+}
+
+/// The text between two marks, the first occurrence of each; empty where there is none.
+std::string part(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t first = text.find(from);
+  if (first == std::string::npos) return {};
+  const std::size_t last = text.find(to, first + from.size());
+  return text.substr(first, last == std::string::npos ? last : last - first);
+}
+
+std::vector<std::string> parts(const std::string& text, const std::string& from, const std::string& to) {
+  std::vector<std::string> out;
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1)) {
+    out.push_back(text.substr(at, text.find(to, at) - at));
+  }
+  return out;
+}
+
+/// What is wrong with the tags of a page; empty for nothing. Every element must be closed, in order, every
+/// attribute quoted, and every & begin a name.
+std::string flaw_in_tags(const std::string& page) {
+  std::vector<std::string> open;
+  for (std::size_t at = 0; at < page.size(); ++at) {
+    if (page[at] == '&') {
+      const std::size_t end = page.find(';', at);
+      const bool named = end != std::string::npos && end - at <= 6 && end > at + 1;
+      if (!named) return "a bare & before " + page.substr(at, 20);
+    }
+    if (page[at] == '>') return "a bare > before " + page.substr(at, 20);
+    if (page[at] != '<') continue;
+    std::size_t end = at + 1;
+    bool quoted = false;
+    while (end < page.size() && (quoted || page[end] != '>')) {
+      if (page[end] == '"') quoted = !quoted;
+      if (page[end] == '<') return "< within a tag, before " + page.substr(end, 20);
+      ++end;
+    }
+    if (end >= page.size()) return "a tag without an end";
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    at = end;
+    if (tag.front() == '!') continue;
+    if (tag.front() == '/') {
+      if (open.empty() || open.back() != tag.substr(1)) {
+        return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
+      }
+      open.pop_back();
+      continue;
+    }
+    if (tag.back() == '/') continue;
+    std::string name = tag.substr(0, tag.find(' '));
+    if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0; })) {
+      return "no name in <" + tag + ">";
+    }
+    open.push_back(name);
+    if (name == "style") at = page.find("</style>", at) - 1;  // not markup
+  }
+  return open.empty() ? "" : open.back() + " stays open";
+}
+
+/// A report of one entry of everything, each with this number where there is one and this text.
+BenchmarkReport filled_with(double x, const std::string& text) {
+  BenchmarkReport r;
+  r.machine.processor = text;
+  r.machine.isas = {text};
+  r.seconds = x;
+  r.disturbed = {text};
+  r.limits = {{text, 1, MemoryLevel::kCache, x, x, x, x, x, x, x}};
+  r.operations = {{text, text, text, 1, MemoryLevel::kMemory, text, x, x, x, text, x, x, x, text, text}};
+  r.scaling = {{text, MemoryLevel::kCache, 2, x, x}};
+  r.ways = {{text, text, true, text, text, 3, x, x, 12, {x, x, x}, true},
+            {text, text, true, "textbook", text, 3, 5.0, x, 12, {0.5, x, x}, false}};
+  r.representations = {{text, false, text, 3, 1, x, x, {x, x, x}},
+                       {text, false, text, 3, 2, 5.0, x, {0.5, x, x}}};
+  r.stress = {{text, text, text, x, x, 10, 0, text}};
+  r.advice = {{text, text, text}, {text, "", text}};
+  return r;
+}
+
+// --- JSON
+// ---------------------------------------------------------------------------------------------------
+
+TEST(BenchmarkJson, HoldsEveryEntry) {
+  const Json json = Json::parse(benchmark_to_json(full()));
+  EXPECT_EQ(json["limits"].size(), full().limits.size());
+  EXPECT_EQ(json["operations"].size(), full().operations.size());
+  EXPECT_EQ(json["scaling"].size(), full().scaling.size());
+  EXPECT_EQ(json["ways"].size(), full().ways.size());
+  EXPECT_EQ(json["representations"].size(), full().representations.size());
+  EXPECT_EQ(json["stress"].size(), full().stress.size());
+  EXPECT_EQ(json["advice"].size(), full().advice.size());
+  EXPECT_EQ(json["disturbed"], Json(full().disturbed));
+  EXPECT_EQ(json["machine"]["isas"], Json(full().machine.isas));
+  EXPECT_EQ(json["machine"]["second_level_cache"], full().machine.second_level_cache);
+}
+
+TEST(BenchmarkJson, ComesBackBitForBit) {
+  const Json json = Json::parse(benchmark_to_json(full()));
+  for (std::size_t i = 0; i < full().ways.size(); ++i) {
+    const WaySpeed& w = full().ways[i];
+    const Json& j = json["ways"][i];
+    EXPECT_EQ(j["job"], w.job);
+    EXPECT_EQ(j["name"], w.name);
+    EXPECT_EQ(j["nanoseconds"].get<double>(), w.nanoseconds);
+    EXPECT_EQ(j["error"]["mean"].get<double>(), w.error.mean);
+    EXPECT_EQ(j["error"]["percentile95"].get<double>(), w.error.percentile95);
+    EXPECT_EQ(j["error"]["maximum"].get<double>(), w.error.maximum);
+    EXPECT_EQ(j["frontier"].get<bool>(), w.frontier);
+  }
+  for (std::size_t i = 0; i < full().operations.size(); ++i) {
+    const OperationSpeed& o = full().operations[i];
+    const Json& j = json["operations"][i];
+    EXPECT_EQ(j["level"], o.level == MemoryLevel::kCache ? "cache" : "memory");
+    EXPECT_EQ(j["items_per_second"].get<double>(), o.items_per_second);
+    EXPECT_EQ(j["fraction"].get<double>(), o.fraction);
+    EXPECT_EQ(j["bound"].get<double>(), o.bound);
+  }
+}
+
+TEST(BenchmarkJson, WritesNullForWhatIsNoNumber) {
+  for (const double x : {kNan, kInfinity, -kInfinity}) {
+    const Json json = Json::parse(benchmark_to_json(filled_with(x, "text")));
+    EXPECT_TRUE(json["ways"][0]["nanoseconds"].is_null());
+    EXPECT_TRUE(json["stress"][0]["worst"].is_null());
+    EXPECT_TRUE(json["seconds"].is_null());
+  }
+}
+
+TEST(BenchmarkJson, SurvivesTextThatIsNoUtf8) {
+  const Json json = Json::parse(benchmark_to_json(filled_with(1, "a\xFF\xC3 b")));
+  EXPECT_THAT(json["machine"]["processor"].get<std::string>(), HasSubstr(" b"));
+}
+
+// --- HTML
+// ---------------------------------------------------------------------------------------------------
+
+TEST(BenchmarkPage, IsWellFormed) {
+  EXPECT_EQ(flaw_in_tags(full_page()), "");
+  EXPECT_EQ(flaw_in_tags(benchmark_to_html(filled_with(1, "<b>&\"'"))), "");
+}
+
+TEST(BenchmarkPage, NeedsNothingElse) {
+  for (const char* what :
+       {"http:", "https:", "//", "<script", "<link", "<iframe", "@import", "url(", "src=", "javascript"}) {
+    EXPECT_THAT(full_page(), Not(HasSubstr(what)));
+  }
+}
+
+TEST(BenchmarkPage, SaysItsLanguageAndFitsItsWindow) {
+  EXPECT_THAT(full_page(), HasSubstr("<html lang=\"en\">"));
+  EXPECT_THAT(full_page(), HasSubstr("name=\"viewport\""));
+  EXPECT_EQ(count_of(full_page(), "<h1>"), 1U);
+}
+
+TEST(BenchmarkPage, LinksLeadSomewhere) {
+  const auto links = parts(full_page(), "href=\"#", "\">");
+  EXPECT_GT(links.size(), 15U);  // sections, and lights of each job
+  for (const std::string& link : links) {
+    const std::string id = link.substr(std::string("href=\"#").size());
+    EXPECT_EQ(count_of(full_page(), "id=\"" + id + "\""), 1U) << id;
+  }
+}
+
+TEST(BenchmarkPage, HasEveryWayInATableAndInBothCharts) {
+  const auto tables = parts(full_page(), "<table>", "</table>");
+  for (const char* job : kMadeUpJobs) {
+    for (const MadeUpLight& light : kMadeUpLights) {
+      const std::string head = fmt::format(
+          "{}, {}: every way", std::string(job).substr(0, std::string(job).find(';')), light.name);
+      const auto table = std::find_if(tables.begin(), tables.end(), [&](const std::string& t) {
+        return t.find(head) != std::string::npos;
+      });
+      ASSERT_NE(table, tables.end()) << head;
+      for (const WaySpeed& w : full().ways) {
+        if (w.job != job || w.light != light.name) continue;
+        const auto rows = parts(*table, "<tr", "</tr>");
+        const std::string name = report::escaped(w.name);
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const std::string& r) {
+          const std::size_t at = r.find("</svg> " + name);
+          if (at == std::string::npos) return false;
+          const char next = r[at + 7 + name.size()];
+          return next == '<' || r.compare(at + 7 + name.size(), 2, " <") == 0;
+        });
+        ASSERT_NE(row, rows.end()) << w.name;
+        EXPECT_THAT(*row, HasSubstr("<td>" + report::number(w.nanoseconds) + "</td>"));
+        EXPECT_THAT(*row, HasSubstr("<td>" + report::number(w.error.mean) + "</td>"));
+        EXPECT_EQ(row->find("★ frontier") != std::string::npos, w.frontier) << w.name;
+        EXPECT_EQ(row->find(">textbook</span>") != std::string::npos, w.family == "textbook") << w.name;
+      }
+    }
+  }
+  // Each in the wide and in the narrow form.
+  EXPECT_EQ(count_of(full_page(), "class=\"mark "), 2 * (full().ways.size() + full().representations.size()));
+  EXPECT_EQ(count_of(full_page(), "<title>"), 1 + 2 * (full().ways.size() + full().representations.size()));
+}
+
+TEST(BenchmarkPage, ListsTheFastestWaysFirst) {
+  BenchmarkReport r;
+  for (const double ns : {30.0, kNan, 0.2, 400.0, 5.0}) {
+    r.ways.push_back(
+        {"job", "light", false, "family", fmt::format("at {}", ns), 0, ns, 0, 0, {1, 1, 1}, false});
+  }
+  const std::string page = benchmark_to_html(r);
+  std::vector<std::string> order;
+  for (const std::string& row : parts(page, "<span class=\"no\">", "</th>")) {
+    order.push_back(row.substr(17, 1) + row.substr(row.find("</svg>") + 6));
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("1 at 0.2", "2 at 5", "3 at 30", "4 at 400", "5 at nan"));
+}
+
+TEST(BenchmarkPage, HasEveryOperationAtEachLevel) {
+  const std::string section = part(full_page(), "<section id=\"operations\">", "</section>");
+  for (const char* level : {"second-level cache", "memory"}) {
+    const std::string all =
+        part(section, fmt::format("<caption><span>In {}: every measurement", level), "</table>");
+    std::size_t count = 0;
+    for (const OperationSpeed& o : full().operations) {
+      if ((o.level == MemoryLevel::kCache) != (std::string(level) != "memory")) continue;
+      ++count;
+      EXPECT_THAT(all,
+                  HasSubstr(fmt::format(">{}</th><td class=\"words\">{}</td><td>{}</td><td>{}", o.name, o.isa,
+                                        o.threads, report::with_prefix(o.items_per_second, o.item + "s/s"))));
+    }
+    EXPECT_EQ(count_of(all, "scope=\"row\""), count);
+    // The short table: each once, as the best instruction set does it.
+    const std::string best =
+        part(section, fmt::format("<caption><span>In {}: every operation, avx512", level), "</table>");
+    EXPECT_EQ(count_of(best, "scope=\"row\""), count / full().machine.isas.size());
+  }
+}
+
+TEST(BenchmarkPage, SetsAnOperationsShareAgainstTheLimitThatBindsIt) {
+  BenchmarkReport r;
+  r.machine.isas = {"sse4.2", "avx2"};
+  r.limits = {{"avx2", 1, MemoryLevel::kMemory, 1e9, 2e9, 3e9, 7.7e9, 5e9, 6e9, 0},
+              {"avx2", 2, MemoryLevel::kCache, 1e9, 2e9, 3e9, 8.8e9, 5e9, 6e9, 0},
+              {"sse4.2", 1, MemoryLevel::kCache, 1e9, 2e9, 3e9, 9.9e9, 5e9, 6e9, 0},
+              {"avx2", 1, MemoryLevel::kCache, 1e9, 2e9, 3e9, 84.2e9, 5e9, 6e9, 0}};
+  r.operations = {{"arithmetic", "multiply", "avx2", 1, MemoryLevel::kCache, "lane", 1.23e9, 8e9, 0.01,
+                   "copy", 0.83, 1.5, 1, "u", "two permutes"}};
+  const std::string page = benchmark_to_html(r);
+  EXPECT_THAT(page, HasSubstr("1.23\u00A0Glanes/s"));
+  EXPECT_THAT(page, HasSubstr("width:83.0%"));
+  EXPECT_THAT(page, HasSubstr("83\u00A0%"));
+  EXPECT_THAT(page, HasSubstr("copy, 84.2\u00A0GB/s <small>two permutes</small>"));
+  EXPECT_EQ(count_of(page, ">beyond<"), 1U);  // 1.5 u with a bound of 1 u
+  r.operations[0].error = 1;
+  EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond<"), 0U);
+}
+
+TEST(BenchmarkPage, MarksStressRowsBeyondTheirBoundAndPutsThemFirst) {
+  const std::string section = part(full_page(), "<section id=\"stress\">", "</section>");
+  const auto rows = parts(section, "<tr", "</tr>");
+  ASSERT_EQ(rows.size(), 1 + full().stress.size());  // and the head
+  std::size_t beyond = 0;
+  for (const StressResult& s : full().stress) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const std::string& r) {
+      return r.find(">" + s.operation + " <small>") != std::string::npos;
+    });
+    ASSERT_NE(row, rows.end()) << s.operation;
+    EXPECT_EQ(row->find("<tr class=\"beyond\">") == 0, s.beyond > 0) << s.operation;
+    EXPECT_EQ(row->find(">beyond</span>") != std::string::npos, s.beyond > 0) << s.operation;
+    EXPECT_THAT(*row, HasSubstr(report::count_text(s.cases)));
+    if (s.beyond == 0) continue;
+    ++beyond;
+    EXPECT_LE(row - rows.begin(), 2) << s.operation;  // after the head
+  }
+  EXPECT_EQ(beyond, 2U);
+  EXPECT_THAT(section, HasSubstr("2 of 80 rows are <strong>beyond</strong>"));
+}
+
+TEST(BenchmarkPage, CountsAWorstBeyondItsBoundOrNoNumberAsBeyond) {
+  BenchmarkReport r;
+  r.stress = {{"held", "", "u", 2, 2, 10, 0, ""}, {"exact", "", "u", 0, 0, 10, 0, ""}};
+  EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond</span>"), 0U);
+  r.stress = {{"worse", "", "u", 2, 2.1, 10, 0, ""},
+              {"odd", "", "u", 2, kNan, 10, 0, ""},
+              {"few", "", "u", 2, 1, 10, 1, ""}};
+  EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond</span>"), 3U);
+}
+
+TEST(BenchmarkPage, HasEveryRepresentationLimitScalingAdviceAndWarning) {
+  const std::string representations =
+      part(full_page(), "<section id=\"representations\">", "<section id=\"operations\">");
+  for (const RepresentationSpeed& r : full().representations) {
+    EXPECT_THAT(representations,
+                HasSubstr(fmt::format("{}</th><td>{}</td><td>{}</td><td>{}</td>", r.name, r.bounces,
+                                      report::number(r.nanoseconds), report::number(r.error.mean))));
+  }
+  const std::string limits = part(full_page(), "<section id=\"limits\">", "</section>");
+  EXPECT_EQ(count_of(limits, "scope=\"row\""), full().limits.size());
+  for (const MachineLimit& l : full().limits) {
+    EXPECT_THAT(limits, HasSubstr(fmt::format(">{}</th><td>{}</td><td>{}</td>", l.isa, l.threads,
+                                              report::with_prefix(l.load, "B/s"))));
+  }
+  const std::string threads = part(full_page(), "<section id=\"threads\">", "</section>");
+  for (const ThreadScaling& s : full().scaling) {
+    EXPECT_THAT(threads,
+                HasSubstr(fmt::format("{} ({})", report::number(s.speed_up), report::number(s.limit))));
+  }
+  const std::string advice = part(full_page(), "<section id=\"advice\">", "</section>");
+  EXPECT_EQ(count_of(advice, "<li>"), full().advice.size());
+  const std::string warning = part(full_page(), "class=\"warning\"", "</aside>");
+  for (const std::string& w : full().disturbed) EXPECT_THAT(warning, HasSubstr(w));
+  EXPECT_THAT(benchmark_to_html({}), Not(HasSubstr("class=\"warning\"")));
+}
+
+TEST(BenchmarkPage, EscapesEveryText) {
+  const std::string evil = "<b>&\"'";
+  const std::string page = benchmark_to_html(filled_with(1, evil));
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page, Not(HasSubstr("&\"")));
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;&amp;&quot;&#39;"));
+  EXPECT_EQ(flaw_in_tags(page), "");
+}
+
+TEST(BenchmarkPage, MendsTextThatIsNoUtf8) {
+  EXPECT_EQ(report::escaped("a\xFF"
+                            "b\xC3"),
+            "a\uFFFDb\uFFFD");
+  EXPECT_EQ(report::escaped("\xE0\x80\x80"), "\uFFFD\uFFFD\uFFFD");  // a longer form than needed
+  EXPECT_EQ(report::escaped("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a pair
+  EXPECT_EQ(report::escaped(std::string("\0\x1B", 2)), "\uFFFD\uFFFD");
+  EXPECT_EQ(report::escaped("\u00E9\u20AC\U0001F600\n"), "\u00E9\u20AC\U0001F600\n");
+}
+
+TEST(BenchmarkPage, WritesNoNumberThatIsNone) {
+  for (const double x : {kNan, kInfinity, -kInfinity}) {
+    const std::string page = benchmark_to_html(filled_with(x, "xyz"));
+    EXPECT_EQ(flaw_in_tags(page), "");
+    std::string lower = part(page, "<body>", "</body>");
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    std::string word;
+    for (const char c : lower) {
+      if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+        word += c;
+        continue;
+      }
+      EXPECT_TRUE(word != "nan" && word != "inf" && word != "infinity") << word;
+      word.clear();
+    }
+    // What has numbers is drawn, what has none is in the tables alone.
+    EXPECT_EQ(count_of(page, "class=\"mark "), 4U);
+  }
+}
+
+TEST(BenchmarkPage, OfAnEmptyReportIsAPage) {
+  const std::string page = benchmark_to_html({});
+  EXPECT_EQ(flaw_in_tags(page), "");
+  EXPECT_THAT(page, HasSubstr("holds no measurements"));
+  EXPECT_THAT(page, Not(HasSubstr("<table>")));
+  EXPECT_THAT(page, Not(HasSubstr("<figure>")));
+}
+
+// --- numbers
+// ------------------------------------------------------------------------------------------------
+
+TEST(BenchmarkNumbers, HaveThreeDigits) {
+  EXPECT_EQ(report::number(0), "0");
+  EXPECT_EQ(report::number(0.54321), "0.543");
+  EXPECT_EQ(report::number(12.96), "13.0");
+  EXPECT_EQ(report::number(12.96, report::Zeros::kDrop), "13");
+  EXPECT_EQ(report::number(999.6), "1\u202F000");
+  EXPECT_EQ(report::number(2804), "2\u202F800");
+  EXPECT_EQ(report::number(1.234e-7), "1.23×10⁻⁷");
+  EXPECT_EQ(report::number(-0.5), "−0.500");
+  EXPECT_EQ(report::number(std::numeric_limits<double>::max()), "1.80×10³⁰⁸");
+  EXPECT_EQ(report::number(std::numeric_limits<double>::denorm_min(), report::Zeros::kDrop), "4.94×10⁻³²⁴");
+}
+
+TEST(BenchmarkNumbers, HavePrefixesAndUnits) {
+  EXPECT_EQ(report::with_prefix(12.34e9, "op/s"), "12.3\u00A0Gop/s");
+  EXPECT_EQ(report::with_prefix(999.7e6, "B/s"), "1.00\u00A0GB/s");
+  EXPECT_EQ(report::with_prefix(512, "B/s"), "512\u00A0B/s");
+  EXPECT_EQ(report::percent(0.826), "83\u00A0%");
+  EXPECT_EQ(report::percent(0.0042), "0.42\u00A0%");
+  EXPECT_EQ(report::percent(1.184), "118\u00A0%");
+  EXPECT_EQ(report::bytes_text(2U << 20U), "2\u00A0MiB");
+  EXPECT_EQ(report::count_text(1234567), "1\u202F234\u202F567");
+}
+
+}  // namespace
+}  // namespace spectile::test
