@@ -8,13 +8,13 @@
 #include <spectile/bench/benchmark.hpp>
 #include <spectile/isa.hpp>
 
+#include "bench/limits/machine.hpp"
+#include "bench/methods/methods.hpp"
+#include "bench/methods/representations.hpp"
+#include "bench/operations/operation_speeds.hpp"
+#include "bench/stress/stress.hpp"
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "bench/limits/machine.hpp"
-#include "bench/operations/operation_speeds.hpp"
-#include "bench/methods/representations.hpp"
-#include "bench/stress/stress.hpp"
-#include "bench/methods/methods.hpp"
 
 namespace spectile {
 namespace {
@@ -109,16 +109,14 @@ Result<void> check(const BenchmarkOptions& options, const BenchmarkMachine& mach
     }
   }
   for (const std::string& isa : options.isas) {
-    const auto found = dispatch::find(isa);
-    if (!found) return found.error();
+    SPECTILE_ASSIGN(const auto found, dispatch::find(isa));
     if (isa == "scalar") {
       return make_error(ErrorCode::kBadArgument,
                         "the scalar reference is not made for speed: it has no limits to be held to");
     }
   }
   for (const std::string& light : options.lights) {
-    const auto found = true_light(light);
-    if (!found) return found.error();
+    SPECTILE_ASSIGN(const auto found, true_light(light));
   }
   if (machine.isas.empty() && options.isas.empty()) {
     return make_error(ErrorCode::kUnavailable, "none of the instruction sets with kernels runs here");
@@ -131,9 +129,8 @@ Error no_operation(const BenchmarkOptions& options) {
 }
 
 Result<void> measure_operations(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  auto made = lane_operations(Bands());
-  if (!made) return made.error();
-  std::vector<Operation> operations = *std::move(made);
+  SPECTILE_ASSIGN(auto made, lane_operations(Bands()));
+  std::vector<Operation> operations = std::move(made);
   std::erase_if(operations, [&](const Operation& op) { return !is_chosen(op.name, options.only); });
   if (operations.empty()) return no_operation(options);
   const std::vector<std::string> isas = chosen_isas(options, report.machine);
@@ -169,10 +166,9 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
         fmt::format("operations, {}, {} thread{}, {}", place.table->name, place.threads,
                     place.threads == 1 ? "" : "s", place.level == MemoryLevel::kCache ? "cache" : "memory");
     SPECTILE_TRY(run.part(name, [&]() -> Result<void> {
-      auto found = measure_speeds(operations, place);
-      if (!found) return found.error();
-      report.limits.push_back(found->limit);
-      report.operations.insert(report.operations.end(), found->operations.begin(), found->operations.end());
+      SPECTILE_ASSIGN(auto found, measure_speeds(operations, place));
+      report.limits.push_back(found.limit);
+      report.operations.insert(report.operations.end(), found.operations.begin(), found.operations.end());
       return {};
     }));
   }
@@ -207,26 +203,22 @@ void add_scaling(BenchmarkReport& report) {
 }
 
 /// Forces an instruction set while it exists, for operations that choose theirs themselves.
-class Forced {
+class ScopedIsa {
  public:
-  explicit Forced(std::string_view isa) { static_cast<void>(dispatch::force(isa)); }
-  ~Forced() { static_cast<void>(dispatch::force("")); }
-  Forced(const Forced&) = delete;
-  Forced& operator=(const Forced&) = delete;
+  explicit ScopedIsa(std::string_view isa) { static_cast<void>(dispatch::force(isa)); }
+  ~ScopedIsa() { static_cast<void>(dispatch::force("")); }
+  ScopedIsa(const ScopedIsa&) = delete;
+  ScopedIsa& operator=(const ScopedIsa&) = delete;
 };
 
 Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  const auto table = dispatch::find(chosen_isas(options, report.machine).back());
-  if (!table) return table.error();
-  const Forced forced((*table)->name);
+  SPECTILE_ASSIGN(const auto table, dispatch::find(chosen_isas(options, report.machine).back()));
+  const ScopedIsa forced(table->name);
   std::vector<Spectrum> spectra = options.reflectances;
   if (spectra.empty()) {
-    auto chart = chart_reflectances();
-    if (!chart) return chart.error();
-    spectra = *std::move(chart);
+    SPECTILE_ASSIGN(spectra, chart_reflectances());
   }
-  const auto reflectances = true_reflectances(spectra);
-  if (!reflectances) return reflectances.error();
+  SPECTILE_ASSIGN(const auto reflectances, true_reflectances(spectra));
   // Two smooth, two with lines.
   const std::vector<std::string> lights =
       options.lights.empty() ? std::vector<std::string>{"D65", "A", "FL11", "HP1"} : options.lights;
@@ -237,20 +229,16 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
   for (std::size_t i = 0; i < lights.size(); ++i) {
     run.set_done(0.4 + 0.4 * static_cast<double>(i) / static_cast<double>(lights.size()));
     SPECTILE_TRY(run.part(fmt::format("ways under {}", lights[i]), [&]() -> Result<void> {
-      auto light = true_light(lights[i]);
-      if (!light) return light.error();
-      auto planned = planned_bands_for(lights[i], options.quick);
-      if (!planned) return planned.error();
-      const WayScene scene{&*reflectances, &*light, *table, *std::move(planned), options.seed};
+      SPECTILE_ASSIGN(auto light, true_light(lights[i]));
+      SPECTILE_ASSIGN(auto planned, planned_bands_for(lights[i], options.quick));
+      const WayScene scene{&reflectances, &light, table, std::move(planned), options.seed};
       for (const bool film : {false, true}) {
-        auto ways = film ? film_ways(scene, options.quick) : rgb_ways(scene, options.quick);
-        if (!ways) return ways.error();
-        const auto found = measure_ways(film ? kFilmJob : kRgbJob, scene, *ways, patience, report.ways);
+        SPECTILE_ASSIGN(auto ways, film ? film_ways(scene, options.quick) : rgb_ways(scene, options.quick));
+        const auto found = measure_ways(film ? kFilmJob : kRgbJob, scene, ways, patience, report.ways);
         report.ways.insert(report.ways.end(), found.begin(), found.end());
       }
-      auto side = measure_representations(scene, patience);
-      if (!side) return side.error();
-      report.representations.insert(report.representations.end(), side->begin(), side->end());
+      SPECTILE_ASSIGN(auto side, measure_representations(scene, patience));
+      report.representations.insert(report.representations.end(), side.begin(), side.end());
       return {};
     }));
   }
@@ -260,11 +248,10 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
 }
 
 Result<void> stress(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  const auto table = dispatch::find(chosen_isas(options, report.machine).back());
-  if (!table) return table.error();
-  const Forced forced((*table)->name);
+  SPECTILE_ASSIGN(const auto table, dispatch::find(chosen_isas(options, report.machine).back()));
+  const ScopedIsa forced(table->name);
   StressSettings settings;
-  settings.table = *table;
+  settings.table = table;
   settings.seed = options.seed;
   settings.samples = std::size_t{1} << (options.quick ? 15 : options.stress ? 21 : 17);
   settings.few_bands = options.quick;
@@ -272,16 +259,13 @@ Result<void> stress(Run& run, const BenchmarkOptions& options, BenchmarkReport& 
   settings.stop = run.stop();
   run.set_done(0.8);
   SPECTILE_TRY(run.part("numbers, operations", [&]() -> Result<void> {
-    auto found = stress_operations(settings);
-    if (!found) return found.error();
-    report.stress = *std::move(found);
+    SPECTILE_ASSIGN(report.stress, stress_operations(settings));
     return {};
   }));
   run.set_done(0.9);
   SPECTILE_TRY(run.part("numbers, the rest", [&]() -> Result<void> {
-    auto found = stress_others(settings);
-    if (!found) return found.error();
-    report.stress.insert(report.stress.end(), found->begin(), found->end());
+    SPECTILE_ASSIGN(auto found, stress_others(settings));
+    report.stress.insert(report.stress.end(), found.begin(), found.end());
     return {};
   }));
   if (report.stress.empty()) return no_operation(options);

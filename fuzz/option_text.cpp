@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <spectile/image/image.hpp>
-#include <spectile/spectra/named_spectra.hpp>
-#include <spectile/film/pixel_filter.hpp>
-#include <spectile/scene/procedural_scene.hpp>
 #include <spectile/color/sensor.hpp>
+#include <spectile/film/pixel_filter.hpp>
+#include <spectile/image/image.hpp>
+#include <spectile/scene/procedural_scene.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
 #include "fuzz/support.hpp"
 #include "src/cli/option_texts.hpp"

@@ -86,8 +86,8 @@ void mutate_once(Choices& choices, Case& bytes, const Case& other) {
 void require_little_memory() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  constexpr long kMostKib = 2L << 20;
-  spectile::fuzz::require(usage.ru_maxrss < kMostKib, "cases take less than 2 GiB of memory",
+  constexpr long kMaxKib = 2L << 20;
+  spectile::fuzz::require(usage.ru_maxrss < kMaxKib, "cases take less than 2 GiB of memory",
                           fmt::format("{} KiB", usage.ru_maxrss));
 }
 

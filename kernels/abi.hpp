@@ -386,8 +386,8 @@ struct KernelTable {
   /// y = ((w0 * r) + (w1 * g)) + (w2 * b), y limited to [lowest, highest], to where all are inside; others
   /// and those with a component that is not finite stay as they are. Bit i of moved[i / kLanes]: it was
   /// outside.
-  void (*limit_gamut)(float* const rgb[3], const float weights[3], float lowest, float highest,
-                      std::uint64_t* moved, std::size_t n) noexcept;
+  void (*gamut_clip)(float* const rgb[3], const float weights[3], float lowest, float highest,
+                     std::uint64_t* moved, std::size_t n) noexcept;
 
   // Conversion. Sources and targets of any alignment, n a multiple of kLanes.
   void (*half_to_float)(float* dst, const std::uint16_t* src,

@@ -8,7 +8,7 @@
 namespace spectile::kernels {
 namespace {
 
-inline constexpr std::size_t kMostFilmWavelengths = 64;
+inline constexpr std::size_t kMaxFilmWavelengths = 64;
 
 inline float magnitude(float v) noexcept {
   return v < 0.0F ? -v : v;
@@ -120,7 +120,7 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
                               const float* const* radiance, const float* const* lambda_nm,
                               const float* const* density, float factor, std::size_t given,
                               std::size_t n) noexcept {
-  constexpr std::size_t kRoom = Count == 0 ? kMostFilmWavelengths : Count;
+  constexpr std::size_t kRoom = Count == 0 ? kMaxFilmWavelengths : Count;
   const std::size_t count = Count == 0 ? given : Count;
   alignas(64) std::int32_t row[kRoom][kWidth];
   alignas(64) float ratio[kRoom][kWidth];

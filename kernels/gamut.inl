@@ -6,8 +6,8 @@
 namespace spectile::kernels {
 namespace {
 
-void limit_gamut(float* const rgb[3], const float weights[3], float lowest, float highest,
-                 std::uint64_t* moved, std::size_t n) noexcept {
+void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float highest,
+                std::uint64_t* moved, std::size_t n) noexcept {
   const F32 low(lowest);
   const F32 high(highest);
   const F32 one(1.0F);

@@ -5,8 +5,8 @@
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <vector>
 
-#include "kernels/abi.hpp"
 #include "bench/limits/clock.hpp"
+#include "kernels/abi.hpp"
 
 namespace spectile::measure {
 

@@ -7,14 +7,14 @@
 
 namespace spectile::measure {
 
-inline constexpr std::size_t kTextbookMost = 60;
+inline constexpr std::size_t kMaxBaseline = 60;
 
 /// What the functions need, for a number of samples. Shapes: basis [7][samples]: white, cyan, magenta,
 /// yellow, red, green, blue; light [samples]; matching [3][samples].
 struct TextbookScene {
-  float basis[7][kTextbookMost];
-  float light[kTextbookMost];
-  float matching[3][kTextbookMost];
+  float basis[7][kMaxBaseline];
+  float light[kMaxBaseline];
+  float matching[3][kMaxBaseline];
 };
 
 struct TextbookPixel {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <random>
 #include <spectile/film/film.hpp>
-#include <spectile/spectra/named_spectra.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/methods/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
+#include "src/base/errors.hpp"
 #include "src/spectra/planned_bands.hpp"
 
 namespace spectile::measure {
@@ -44,10 +44,8 @@ struct State {
 };
 
 Result<FilmDevelopment> developed(const Film& film) {
-  auto picture = FilmDevelopment::create(film, FilmLayer::kXyz);
-  if (!picture) return picture.error();
-  const auto updated = picture->update({1});
-  if (!updated) return updated.error();
+  SPECTILE_ASSIGN(auto picture, FilmDevelopment::create(film, FilmLayer::kXyz));
+  SPECTILE_ASSIGN(const auto updated, picture.update({1}));
   return picture;
 }
 
@@ -76,17 +74,15 @@ FilmOptions options_of() {
 
 /// Each lane's radiance in the bands: its reflectance's sample times the light's.
 Result<std::vector<float>> radiance_on(const WayScene& scene, const Bands& bands, double* white_y) {
-  const auto light = light_samples(scene.light->spectrum, bands);
-  if (!light) return light.error();
-  auto observer = Projector::emissive(bands);
-  if (!observer) return observer.error();
+  SPECTILE_ASSIGN(const auto light, light_samples(scene.light->spectrum, bands));
+  SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
   *white_y = 0;
-  for (std::size_t b = 0; b < bands.count(); ++b) *white_y += observer->weights()[b][1] * (*light)[b];
+  for (std::size_t b = 0; b < bands.count(); ++b) *white_y += observer.weights()[b][1] * (light)[b];
   std::vector<float> out(bands.count() * kWayLanes);
   for (std::size_t r = 0; r < scene.reflectances->size(); ++r) {
     for (std::size_t b = 0; b < bands.count(); ++b) {
       const double sample = sample_in((*scene.reflectances)[r].spectrum, bands, b);
-      const auto value = static_cast<float>(sample * (*light)[b]);
+      const auto value = static_cast<float>(sample * (light)[b]);
       for (std::size_t lane = r; lane < kWayLanes; lane += scene.reflectances->size()) {
         out[b * kWayLanes + lane] = value;
       }
@@ -98,15 +94,13 @@ Result<std::vector<float>> radiance_on(const WayScene& scene, const Bands& bands
 Result<void> add_bands(const WayScene& scene, const Bands& bands, const std::string& family,
                        const std::string& name, std::vector<Way>& ways) {
   auto s = std::make_shared<State>();
-  auto radiance = radiance_on(scene, bands, &s->white_y);
-  if (!radiance) return radiance.error();
-  s->radiance = *std::move(radiance);
+  SPECTILE_ASSIGN(auto radiance, radiance_on(scene, bands, &s->white_y));
+  s->radiance = std::move(radiance);
   FilmOptions o = options_of();
   o.input = FilmInput::kBands;
   o.bands = bands;
-  auto film = Film::create(o);
-  if (!film) return film.error();
-  s->film = *std::move(film);
+  SPECTILE_ASSIGN(auto film, Film::create(o));
+  s->film = std::move(film);
   Way way;
   way.family = family;
   way.name = name;
@@ -135,22 +129,19 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
   };
   auto d = std::make_shared<Drawn>();
   FilmOptions o = options_of();
-  auto film = Film::create(o);
-  if (!film) return film.error();
-  d->film.film = *std::move(film);
+  SPECTILE_ASSIGN(auto film, Film::create(o));
+  d->film.film = std::move(film);
   std::mt19937_64 random(scene.seed);
-  auto u = ScalarLanes::create(kWayLanes);
-  if (!u) return u.error();
+  SPECTILE_ASSIGN(auto u, ScalarLanes::create(kWayLanes));
   // The light on the scale on which the film's white is 1.
   const auto& light = scene.light->spectrum;
   double luminance = 0;
   {
-    const auto y_bar = named_spectrum("cie1931-y");
-    if (!y_bar) return y_bar.error();
+    SPECTILE_ASSIGN(const auto y_bar, named_spectrum("cie1931-y"));
     double total = 0;
     for (int nm = 360; nm <= 830; ++nm) {
-      luminance += (*y_bar)(nm)*light.at(nm);
-      total += (*y_bar)(nm);
+      luminance += (y_bar)(nm)*light.at(nm);
+      total += (y_bar)(nm);
     }
     luminance /= total;
   }
@@ -158,23 +149,21 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
     // Stratified over a pixel's samples: each in its own part of the range.
     for (std::size_t i = 0; i < kWayLanes; ++i) {
       const double jitter = static_cast<double>(random() >> 11U) * 0x1p-53;
-      (*u)[i] =
+      (u)[i] =
           static_cast<float>((static_cast<double>(sample) + jitter) / static_cast<double>(kDrawsPerPixel));
     }
-    auto drawn = SampledWavelengths::create(kWayLanes, kWavelengths);
-    if (!drawn) return drawn.error();
-    SPECTILE_TRY(sample_wavelengths(WavelengthSampling::kVisible, u->view(), *drawn));
-    auto radiance = WavelengthLanes::create(kWayLanes, kWavelengths);
-    if (!radiance) return radiance.error();
+    SPECTILE_ASSIGN(auto drawn, SampledWavelengths::create(kWayLanes, kWavelengths));
+    SPECTILE_TRY(sample_wavelengths(WavelengthSampling::kVisible, u.view(), drawn));
+    SPECTILE_ASSIGN(auto radiance, WavelengthLanes::create(kWayLanes, kWavelengths));
     for (std::size_t i = 0; i < kWayLanes; ++i) {
       const auto& r = (*scene.reflectances)[i % scene.reflectances->size()].spectrum;
       for (std::size_t k = 0; k < kWavelengths; ++k) {
-        const auto nm = static_cast<double>(drawn->lambda_nm.at(i, k));
-        radiance->at(i, k) = static_cast<float>(r.at(nm) * light.at(nm) / luminance);
+        const auto nm = static_cast<double>(drawn.lambda_nm.at(i, k));
+        radiance.at(i, k) = static_cast<float>(r.at(nm) * light.at(nm) / luminance);
       }
     }
-    d->draws.push_back(*std::move(drawn));
-    d->radiance.push_back(*std::move(radiance));
+    d->draws.push_back(std::move(drawn));
+    d->radiance.push_back(std::move(radiance));
   }
   Way way;
   way.family = "wavelengths";
@@ -204,10 +193,8 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
 
 Result<void> add_textbook(const WayScene& scene, std::vector<Way>& ways) {
   for (const TextbookWay& text : textbook().ways) {
-    auto bands = Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples));
-    if (!bands) return bands.error();
-    auto observer = Projector::emissive(*bands);
-    if (!observer) return observer.error();
+    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples)));
+    SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
     struct Book {
       TextbookScene scene{};
       std::vector<float> radiance, weight;
@@ -216,19 +203,18 @@ Result<void> add_textbook(const WayScene& scene, std::vector<Way>& ways) {
       double white_y = 1;
     };
     auto book = std::make_shared<Book>();
-    const auto rows = radiance_on(scene, *bands, &book->white_y);
-    if (!rows) return rows.error();
+    SPECTILE_ASSIGN(const auto rows, radiance_on(scene, bands, &book->white_y));
     book->radiance.resize(kWayLanes * text.samples);
     for (std::size_t i = 0; i < kWayLanes; ++i) {
       for (std::size_t b = 0; b < text.samples; ++b)
-        book->radiance[i * text.samples + b] = (*rows)[b * kWayLanes + i];
+        book->radiance[i * text.samples + b] = (rows)[b * kWayLanes + i];
       book->pixel.push_back(i);
     }
     book->weight.assign(kWayLanes, 1.0F);
     book->film.resize(kWayLanes);
     for (std::size_t b = 0; b < text.samples; ++b) {
       for (std::size_t k = 0; k < 3; ++k) {
-        book->scene.matching[k][b] = static_cast<float>(observer->weights()[b][k]);
+        book->scene.matching[k][b] = static_cast<float>(observer.weights()[b][k]);
       }
     }
     Way way;
@@ -257,11 +243,10 @@ Result<std::vector<Way>> film_ways(const WayScene& scene, bool quick) {
   std::vector<Way> ways;
   SPECTILE_TRY(add_textbook(scene, ways));
   for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
-    auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
-    const bool wide = bands->list().front().lower_nm < 400;
-    SPECTILE_TRY(add_bands(scene, *bands, "even bands",
-                           fmt::format("{} even bands{}", bands->count(), wide ? " to 780 nm" : ""), ways));
+    SPECTILE_ASSIGN(auto bands, Bands::parse(text));
+    const bool wide = bands.list().front().lower_nm < 400;
+    SPECTILE_TRY(add_bands(scene, bands, "even bands",
+                           fmt::format("{} even bands{}", bands.count(), wide ? " to 780 nm" : ""), ways));
   }
   for (const Bands& bands : scene.planned) {
     SPECTILE_TRY(

@@ -13,33 +13,27 @@
 namespace spectile::measure {
 
 Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quick) {
-  const auto wide = Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5);
-  if (!wide) return wide.error();
-  auto upsampler = Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *wide);
-  if (!upsampler) return upsampler.error();
+  SPECTILE_ASSIGN(const auto wide, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
+  SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, wide));
   PlannerOptions options;
   constexpr int kSide = 5;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
     const auto step = [](int n) { return static_cast<double>(n % kSide) / (kSide - 1); };
     const std::array<double, 3> rgb = {step(i), step(i / kSide), step(i / (kSide * kSide))};
-    auto spectrum = rgb_albedo_spectrum(*upsampler, rgb);
-    if (!spectrum) return spectrum.error();
-    options.reflectances.emplace_back(*std::move(spectrum));
+    SPECTILE_ASSIGN(auto spectrum, rgb_albedo_spectrum(upsampler, rgb));
+    options.reflectances.emplace_back(std::move(spectrum));
   }
-  auto found = find_spectrum(light);
-  if (!found) return found.error();
-  options.lights.push_back({light, *std::move(found)});
+  SPECTILE_ASSIGN(auto found, find_spectrum(light));
+  options.lights.push_back({light, std::move(found)});
   options.sampling = PlanSampling::kBands;
   options.folds = 0;
   std::vector<Bands> out;
   for (const std::size_t count : {std::size_t{8}, std::size_t{12}}) {
     if (quick && count != 8) continue;
     options.bands = count;
-    auto plan = make_plan(options);
-    if (!plan) return plan.error();
-    auto bands = Bands::of_plan(*plan);
-    if (!bands) return bands.error();
-    out.push_back(*std::move(bands));
+    SPECTILE_ASSIGN(auto plan, make_plan(options));
+    SPECTILE_ASSIGN(auto bands, Bands::of_plan(plan));
+    out.push_back(std::move(bands));
   }
   return out;
 }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/abi.hpp"
 #include "bench/limits/clock.hpp"
 #include "bench/methods/reference_colors.hpp"
+#include "kernels/abi.hpp"
 
 namespace spectile::measure {
 

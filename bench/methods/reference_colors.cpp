@@ -39,15 +39,13 @@ bool has_lines(const std::vector<double>& light) {
 }  // namespace
 
 Result<TrueLight> true_light(const std::string& name) {
-  auto found = illuminant(name);
-  if (!found) return found.error();
-  const std::vector<double> power = on_grid([&](double nm) { return found->at(nm); });
-  TrueLight out{name, *found, {}, {}, has_lines(power)};
+  SPECTILE_ASSIGN(auto found, illuminant(name));
+  const std::vector<double> power = on_grid([&](double nm) { return found.at(nm); });
+  TrueLight out{name, found, {}, {}, has_lines(power)};
   const char* const curves[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto curve = named_spectrum(curves[k]);
-    if (!curve) return curve.error();
-    out.weights[k] = on_grid([&](double nm) { return (*curve)(nm); });
+    SPECTILE_ASSIGN(const auto curve, named_spectrum(curves[k]));
+    out.weights[k] = on_grid([&](double nm) { return (curve)(nm); });
     for (std::size_t i = 0; i < kGrid; ++i) out.weights[k][i] *= power[i];
   }
   const double y = std::accumulate(out.weights[1].begin(), out.weights[1].end(), 0.0);
@@ -63,9 +61,8 @@ Result<std::vector<Spectrum>> chart_reflectances() {
   std::vector<Spectrum> out;
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind != "reflectance") continue;
-    auto found = named_spectrum(info.name);
-    if (!found) return found.error();
-    out.push_back(*std::move(found));
+    SPECTILE_ASSIGN(auto found, named_spectrum(info.name));
+    out.push_back(std::move(found));
   }
   return out;
 }
@@ -83,9 +80,8 @@ Result<std::vector<TrueReflectance>> true_reflectances(const std::vector<Spectru
       values = on_grid([&](double at) { return spectrum(at); });
     }
     for (double& v : values) v = std::clamp(v, 0.0, 1.0);
-    auto measured = MeasuredSpectrum::from_samples(nm, values);
-    if (!measured) return measured.error();
-    TrueReflectance one{*std::move(measured), {}};
+    SPECTILE_ASSIGN(auto measured, MeasuredSpectrum::from_samples(nm, values));
+    TrueReflectance one{std::move(measured), {}};
     one.values = on_grid([&](double at) { return one.spectrum.at(at); });
     out.push_back(std::move(one));
   }

@@ -14,7 +14,7 @@
 namespace spectile::measure {
 namespace {
 
-constexpr int kMostBounces = 5;
+constexpr int kMaxBounces = 5;
 /// Paths that errors are over; lane i is of path i modulo their number.
 constexpr std::size_t kPaths = 512;
 
@@ -41,12 +41,11 @@ Representation on_bands(std::string name, const Bands& bands, const WayScene& sc
 
 /// Linear sRGB under D65 of each reflectance.
 Result<std::vector<std::array<float, 3>>> colors_of(const WayScene& scene) {
-  auto d65 = true_light("D65");
-  if (!d65) return d65.error();
-  const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65->white));
+  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+  const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65.white));
   std::vector<std::array<float, 3>> out;
   for (const TrueReflectance& r : *scene.reflectances) {
-    const Xyz rgb = times(matrix, true_xyz(*d65, {&r}));
+    const Xyz rgb = times(matrix, true_xyz(d65, {&r}));
     out.push_back({static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
   }
   return out;
@@ -54,62 +53,54 @@ Result<std::vector<std::array<float, 3>>> colors_of(const WayScene& scene) {
 
 Result<std::vector<Representation>> representations_for(const WayScene& scene) {
   std::vector<Representation> out;
-  const auto colors = colors_of(scene);
-  if (!colors) return colors.error();
-  auto d65 = true_light("D65");
-  if (!d65) return d65.error();
+  SPECTILE_ASSIGN(const auto colors, colors_of(scene));
+  SPECTILE_ASSIGN(auto d65, true_light("D65"));
   Representation rgb{"RGB", 3, {}, {}};
-  const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65->white);
+  const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65.white);
   const Xyz light = times(inverse(to_xyz), scene.light->white);
   for (std::size_t c = 0; c < 3; ++c) {
     rgb.weights.push_back({to_xyz[c] * light[c], to_xyz[3 + c] * light[c], to_xyz[6 + c] * light[c]});
   }
-  for (const auto& c : *colors) rgb.reflectances.push_back({c[0], c[1], c[2]});
+  for (const auto& c : colors) rgb.reflectances.push_back({c[0], c[1], c[2]});
   out.push_back(std::move(rgb));
 
   std::vector<std::pair<std::string, Bands>> lists;
   for (const char* text : {"400:700:10", "400:700:5"}) {
-    auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
-    lists.emplace_back(fmt::format("{} even bands", bands->count()), *bands);
+    SPECTILE_ASSIGN(auto bands, Bands::parse(text));
+    lists.emplace_back(fmt::format("{} even bands", bands.count()), bands);
   }
   for (const Bands& bands : scene.planned) {
     lists.emplace_back(fmt::format("{} planned bands", bands.count()), bands);
   }
   for (const auto& [name, bands] : lists) {
-    auto under = Projector::reflective(bands, scene.light->spectrum);
-    if (!under) return under.error();
-    out.push_back(on_bands(name, bands, scene, *under));
+    SPECTILE_ASSIGN(auto under, Projector::reflective(bands, scene.light->spectrum));
+    out.push_back(on_bands(name, bands, scene, under));
   }
 
   // What a renderer has that is given RGB: spectra of sigmoids.
   const Bands bands;
-  auto under = Projector::reflective(bands, scene.light->spectrum);
-  if (!under) return under.error();
-  auto upsampler = Upsampler::create(Method::kSigmoid, Quantity::kReflectance, bands);
-  if (!upsampler) return upsampler.error();
-  auto lanes = ColorLanes::create(colors->size());
-  if (!lanes) return lanes.error();
-  for (std::size_t i = 0; i < colors->size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) lanes->at(i, k) = std::clamp((*colors)[i][k], 0.0F, 1.0F);
+  SPECTILE_ASSIGN(auto under, Projector::reflective(bands, scene.light->spectrum));
+  SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, bands));
+  SPECTILE_ASSIGN(auto lanes, ColorLanes::create(colors.size()));
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) lanes.at(i, k) = std::clamp((colors)[i][k], 0.0F, 1.0F);
   }
-  auto spectra = SampledSpectra::create(bands, colors->size());
-  if (!spectra) return spectra.error();
-  SPECTILE_TRY(upsample_srgb(*upsampler, lanes->view(), spectra->span()));
+  SPECTILE_ASSIGN(auto spectra, SampledSpectra::create(bands, colors.size()));
+  SPECTILE_TRY(upsample_srgb(upsampler, lanes.view(), spectra.span()));
   Representation sigmoids{"sigmoids of RGB, 60 bands", bands.count(), {}, {}};
-  for (std::size_t i = 0; i < colors->size(); ++i) {
+  for (std::size_t i = 0; i < colors.size(); ++i) {
     std::vector<float> samples;
-    for (std::size_t b = 0; b < bands.count(); ++b) samples.push_back(spectra->at(i, b));
+    for (std::size_t b = 0; b < bands.count(); ++b) samples.push_back(spectra.at(i, b));
     sigmoids.reflectances.push_back(std::move(samples));
   }
-  sigmoids.weights.assign(under->weights().begin(), under->weights().end());
+  sigmoids.weights.assign(under.weights().begin(), under.weights().end());
   out.push_back(std::move(sigmoids));
   return out;
 }
 
 /// Lanes of one representation for each bounce, and their product's colour.
 struct Lanes {
-  FloatBuffer bounces[kMostBounces];
+  FloatBuffer bounces[kMaxBounces];
   FloatBuffer product, xyz, weights;
   std::size_t count = 0;
 };
@@ -119,12 +110,10 @@ Result<std::shared_ptr<Lanes>> lanes_of(const Representation& r,
   auto out = std::make_shared<Lanes>();
   out->count = r.count;
   const auto make = [](FloatBuffer& to, std::size_t floats) -> Result<void> {
-    auto made = FloatBuffer::create(floats);
-    if (!made) return made.error();
-    to = *std::move(made);
+    SPECTILE_ASSIGN(to, FloatBuffer::create(floats));
     return {};
   };
-  for (std::size_t bounce = 0; bounce < kMostBounces; ++bounce) {
+  for (std::size_t bounce = 0; bounce < kMaxBounces; ++bounce) {
     SPECTILE_TRY(make(out->bounces[bounce], kWayLanes * r.count));
     for (std::size_t lane = 0; lane < kWayLanes; ++lane) {
       const std::vector<float>& samples = r.reflectances[paths[lane % kPaths][bounce]];
@@ -161,21 +150,19 @@ void run_paths(const kernels::KernelTable& k, Lanes& lanes, int bounces) {
 
 Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene& scene,
                                                                  const Patience& patience) {
-  const auto made = representations_for(scene);
-  if (!made) return made.error();
+  SPECTILE_ASSIGN(const auto made, representations_for(scene));
   std::mt19937_64 random(scene.seed);
   std::vector<std::vector<std::size_t>> paths(kPaths);
   for (auto& path : paths) {
-    for (int i = 0; i < kMostBounces; ++i) path.push_back(random() % scene.reflectances->size());
+    for (int i = 0; i < kMaxBounces; ++i) path.push_back(random() % scene.reflectances->size());
   }
   std::vector<RepresentationSpeed> out;
   std::vector<std::shared_ptr<Lanes>> lanes;
   std::vector<Timed> timed;
-  for (const Representation& r : *made) {
-    auto own = lanes_of(r, paths);
-    if (!own) return own.error();
-    lanes.push_back(*std::move(own));
-    for (int bounces = 1; bounces <= kMostBounces; ++bounces) {
+  for (const Representation& r : made) {
+    SPECTILE_ASSIGN(auto own, lanes_of(r, paths));
+    lanes.push_back(std::move(own));
+    for (int bounces = 1; bounces <= kMaxBounces; ++bounces) {
       Timed t;
       t.run = [table = scene.table, l = lanes.back(), bounces] { run_paths(*table, *l, bounces); };
       timed.push_back(std::move(t));
@@ -185,13 +172,13 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene&
   work.reserve(timed.size());
   for (Timed& t : timed) work.push_back(&t);
   time_in_turn(work, patience);
-  for (std::size_t i = 0; i < made->size(); ++i) {
-    for (int bounces = 1; bounces <= kMostBounces; ++bounces) {
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    for (int bounces = 1; bounces <= kMaxBounces; ++bounces) {
       run_paths(*scene.table, *lanes[i], bounces);
       ErrorList errors(scene.light->white);
       for (std::size_t p = 0; p < kPaths; ++p) {
         std::vector<const TrueReflectance*> along;
-        along.reserve(kMostBounces);
+        along.reserve(kMaxBounces);
         for (int b = 0; b < bounces; ++b)
           along.push_back(&(*scene.reflectances)[paths[p][static_cast<std::size_t>(b)]]);
         Xyz found{};
@@ -199,12 +186,12 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene&
           found[k] = static_cast<double>(lanes[i]->xyz.data()[k * kWayLanes + p]);
         errors.add(true_xyz(*scene.light, along), found);
       }
-      const Timed& t = timed[i * kMostBounces + static_cast<std::size_t>(bounces - 1)];
+      const Timed& t = timed[i * kMaxBounces + static_cast<std::size_t>(bounces - 1)];
       RepresentationSpeed one;
       one.light = scene.light->name;
       one.spiky = scene.light->spiky;
-      one.name = (*made)[i].name;
-      one.coefficients = static_cast<int>((*made)[i].count);
+      one.name = (made)[i].name;
+      one.coefficients = static_cast<int>((made)[i].count);
       one.bounces = bounces;
       one.nanoseconds = 1e9 * t.seconds / static_cast<double>(kWayLanes);
       one.spread = t.spread;

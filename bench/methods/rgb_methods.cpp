@@ -7,9 +7,9 @@
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/methods/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
+#include "src/base/errors.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile::measure {
@@ -24,24 +24,22 @@ struct Texture {
 };
 
 Result<std::shared_ptr<const Texture>> texture_of(const WayScene& scene) {
-  auto d65 = true_light("D65");
-  if (!d65) return d65.error();
-  auto rgb = ColorLanes::create(kWayLanes);
-  if (!rgb) return rgb.error();
+  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(kWayLanes));
   auto out = std::make_shared<Texture>();
   out->interleaved.resize(3 * kWayLanes);
   // White as the light itself has it, so that grey is grey.
-  const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65->white));
+  const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65.white));
   for (std::size_t i = 0; i < kWayLanes; ++i) {
     const auto& r = (*scene.reflectances)[i % scene.reflectances->size()];
-    const Xyz color = times(matrix, true_xyz(*d65, {&r}));
+    const Xyz color = times(matrix, true_xyz(d65, {&r}));
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<float>(std::clamp(color[k], 0.0, 1.0));
-      rgb->at(i, k) = v;
+      rgb.at(i, k) = v;
       out->interleaved[3 * i + k] = v;
     }
   }
-  out->rgb = *std::move(rgb);
+  out->rgb = std::move(rgb);
   return std::shared_ptr<const Texture>(std::move(out));
 }
 
@@ -66,20 +64,13 @@ struct Maker {
     auto s = std::make_shared<State>();
     s->texture = texture;
     s->upsampler = upsampler;
-    auto projector = Projector::reflective(upsampler->bands(), scene.light->spectrum);
-    if (!projector) return projector.error();
-    s->projector = *std::move(projector);
-    auto spectra = FloatBuffer::create(kWayLanes * upsampler->bands().count());
-    if (!spectra) return spectra.error();
-    s->spectra = *std::move(spectra);
-    auto coefficients = FloatBuffer::create(3 * kWayLanes);
-    if (!coefficients) return coefficients.error();
-    s->coefficients = *std::move(coefficients);
+    SPECTILE_ASSIGN(s->projector, Projector::reflective(upsampler->bands(), scene.light->spectrum));
+    SPECTILE_ASSIGN(auto spectra, FloatBuffer::create(kWayLanes * upsampler->bands().count()));
+    s->spectra = std::move(spectra);
+    SPECTILE_ASSIGN(s->coefficients, FloatBuffer::create(3 * kWayLanes));
     s->halves.resize(s->spectra.size());
     s->unsolved.resize(blocks_for(kWayLanes));
-    auto xyz = ColorLanes::create(kWayLanes);
-    if (!xyz) return xyz.error();
-    s->xyz = *std::move(xyz);
+    SPECTILE_ASSIGN(s->xyz, ColorLanes::create(kWayLanes));
     return s;
   }
 
@@ -152,12 +143,13 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   // Bands on which a method cannot be exact are no way.
   if (!made) return {};
   const auto upsampler = std::make_shared<const Upsampler>(*std::move(made));
-  auto state = maker.state_for(upsampler);
-  if (!state) return state.error();
-  const std::shared_ptr<State> s = *state;
+  SPECTILE_ASSIGN(auto state, maker.state_for(upsampler));
+  const std::shared_ptr<State> s = state;
   const std::string family(to_string(method));
   const auto samples = static_cast<std::uint64_t>(bands.count());
-  const auto name = [&](const char* how) { return fmt::format("{}, {}, {}", family, label, how); };
+  const auto name = [&](const char* execution) {
+    return fmt::format("{}, {}, {}", family, label, execution);
+  };
   if (method == Method::kSigmoid) {
     maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, State& t) {
       solve(k, t);
@@ -182,9 +174,8 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
     sum_up(k, t);
   });
   constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  auto relighter = Relighter::create(*s->upsampler, *s->projector, kIdentity);
-  if (!relighter) return relighter.error();
-  s->relighter = *std::move(relighter);
+  SPECTILE_ASSIGN(auto relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
+  s->relighter = std::move(relighter);
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
     const float* rgb[3];
     k.smits_fold(t.xyz.span().c, rgb_of(t, rgb), t.relighter->table().data(), kWayLanes);
@@ -194,18 +185,15 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
 
 /// Three numbers a colour and a light of three numbers.
 Result<void> add_rgb(Maker& maker) {
-  auto upsampler = Upsampler::create(Method::kSmits, Quantity::kReflectance, Bands());
-  if (!upsampler) return upsampler.error();
-  auto state = maker.state_for(std::make_shared<const Upsampler>(*std::move(upsampler)));
-  if (!state) return state.error();
+  SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSmits, Quantity::kReflectance, Bands()));
+  SPECTILE_ASSIGN(auto state, maker.state_for(std::make_shared<const Upsampler>(std::move(upsampler))));
   // The light's RGB, and back to XYZ; D65 itself is 1, 1, 1.
-  auto d65 = true_light("D65");
-  if (!d65) return d65.error();
-  const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65->white);
+  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+  const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65.white);
   const Xyz light = times(inverse(to_xyz), maker.scene.light->white);
   auto folded = std::make_shared<std::vector<float>>();
   for (std::size_t i = 0; i < 9; ++i) folded->push_back(static_cast<float>(to_xyz[i] * light[i % 3]));
-  maker.add(*state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
+  maker.add(state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
     const float* rgb[3];
     k.transform3(t.xyz.span().c, rgb_of(t, rgb), folded->data(), kWayLanes);
   });
@@ -215,12 +203,9 @@ Result<void> add_rgb(Maker& maker) {
 
 Result<void> add_textbook(Maker& maker) {
   for (const TextbookWay& text : textbook().ways) {
-    auto bands = Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples));
-    if (!bands) return bands.error();
-    auto upsampler = Upsampler::create(Method::kSmits, Quantity::kReflectance, *bands);
-    if (!upsampler) return upsampler.error();
-    auto observer = Projector::emissive(*bands);
-    if (!observer) return observer.error();
+    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples)));
+    SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSmits, Quantity::kReflectance, bands));
+    SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
     struct Book {
       TextbookScene scene{};
       std::vector<float> xyz;
@@ -229,15 +214,15 @@ Result<void> add_textbook(Maker& maker) {
     auto book = std::make_shared<Book>();
     book->texture = maker.texture;
     book->xyz.resize(3 * kWayLanes);
-    const std::vector<float> light = maker.scene.light->spectrum.average_over(*bands);
+    const std::vector<float> light = maker.scene.light->spectrum.average_over(bands);
     double y = 0;
     for (std::size_t i = 0; i < text.samples; ++i)
-      y += observer->weights()[i][1] * static_cast<double>(light[i]);
+      y += observer.weights()[i][1] * static_cast<double>(light[i]);
     for (std::size_t i = 0; i < text.samples; ++i) {
       for (std::size_t k = 0; k < 7; ++k)
-        book->scene.basis[k][i] = static_cast<float>(upsampler->basis()[i][k]);
+        book->scene.basis[k][i] = static_cast<float>(upsampler.basis()[i][k]);
       for (std::size_t k = 0; k < 3; ++k) {
-        book->scene.matching[k][i] = static_cast<float>(observer->weights()[i][k]);
+        book->scene.matching[k][i] = static_cast<float>(observer.weights()[i][k]);
       }
       book->scene.light[i] = static_cast<float>(static_cast<double>(light[i]) / y);
     }
@@ -260,19 +245,17 @@ Result<void> add_textbook(Maker& maker) {
 }  // namespace
 
 Result<std::vector<Way>> rgb_ways(const WayScene& scene, bool quick) {
-  auto texture = texture_of(scene);
-  if (!texture) return texture.error();
+  SPECTILE_ASSIGN(auto texture, texture_of(scene));
   std::vector<Way> ways;
-  Maker maker{scene, *texture, ways};
+  Maker maker{scene, texture, ways};
   SPECTILE_TRY(add_textbook(maker));
   SPECTILE_TRY(add_rgb(maker));
   std::vector<std::pair<Bands, std::string>> lists;
   for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
     if (quick && std::string_view(text) != "400:700:5") continue;
-    auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
-    lists.emplace_back(*bands, fmt::format("{} even bands{}", bands->count(),
-                                           bands->list().front().lower_nm < 400 ? " to 780 nm" : ""));
+    SPECTILE_ASSIGN(auto bands, Bands::parse(text));
+    lists.emplace_back(bands, fmt::format("{} even bands{}", bands.count(),
+                                          bands.list().front().lower_nm < 400 ? " to 780 nm" : ""));
   }
   for (const Bands& bands : scene.planned) {
     lists.emplace_back(bands, fmt::format("{} planned bands", bands.count()));

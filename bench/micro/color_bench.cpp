@@ -153,7 +153,7 @@ double error_of_relight() {
 }
 template <Way Bench::*way>
 void run_upsample() {
-  need(upsample_srgb((bench().*way).upsampler, bench().rgb.view(), bench().spectra.span(), Stores::kCached,
+  need(upsample_srgb((bench().*way).upsampler, bench().rgb.view(), bench().spectra.span(), StoreHint::kCached,
                      kOneThread));
 }
 
@@ -178,7 +178,8 @@ double error_of_round_trip() {
 }
 
 double error_of_solve() {
-  need(expand(bench().sigmoid.upsampler, bench().found, bench().spectra.span(), Stores::kCached, kOneThread));
+  need(expand(bench().sigmoid.upsampler, bench().found, bench().spectra.span(), StoreHint::kCached,
+              kOneThread));
   return error_of_round_trip();
 }
 
@@ -223,7 +224,7 @@ std::vector<Line> lines() {
        error_of_solve, "", false, 0, 50},
       {"sigmoid: evaluate", n, n * (spectrum + 12),
        [] {
-         need(expand(bench().sigmoid.upsampler, bench().found, bench().spectra.span(), Stores::kCached,
+         need(expand(bench().sigmoid.upsampler, bench().found, bench().spectra.span(), StoreHint::kCached,
                      kOneThread));
        },
        error_of_round_trip, "", false, 0, kPublicEvaluationNs / 4},

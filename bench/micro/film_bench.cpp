@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 // Enough for quartiles, and few enough for three minutes; on a slow or busy machine fewer.
 constexpr std::size_t kRounds = 9;
 constexpr std::size_t kQuickRounds = 2;
-constexpr double kMostSeconds = 140;
+constexpr double kMaxSeconds = 140;
 /// Floats that are copied: a GiB read and written, beyond what the caches of today's servers hold.
 constexpr std::size_t kCopied = std::size_t{1} << 27;
 /// What a sample carries beside its position: 4 wavelengths with radiance and density, and a weight.
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   std::vector<std::size_t> turns(lines.size() + 1);
   for (std::size_t i = 0; i < turns.size(); ++i) turns[i] = i;
   std::mt19937 engine(5);
-  while (copies.size() < rounds && (copies.size() < kQuickRounds || seconds_since(start) < kMostSeconds)) {
+  while (copies.size() < rounds && (copies.size() < kQuickRounds || seconds_since(start) < kMaxSeconds)) {
     std::shuffle(turns.begin(), turns.end(), engine);
     for (const std::size_t turn : turns) {
       const auto copy = [&] { machine::copy(to.data(), from.data(), kCopied); };

@@ -20,7 +20,7 @@ using report::need;
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 constexpr std::uint64_t kPixels = std::uint64_t{kWidth} * kHeight;
-constexpr int kMostLog2 = 12;  // 4096 samples a pixel
+constexpr int kMaxLog2 = 12;  // 4096 samples a pixel
 constexpr std::uint64_t kBatch = 16384;
 /// Unbiased and independent, errors have slope -0.5; what is left is the chance in 3072 pixels.
 constexpr double kSlope = -0.5;
@@ -137,7 +137,7 @@ void run(const ProceduralScene& scene, const Truth& truth, const FilmOptions& op
 }
 
 void measure(const ProceduralScene& scene, const Truth& truth, const FilmOptions& options, Series& s) {
-  for (int log2 = 0; log2 <= kMostLog2; ++log2) {
+  for (int log2 = 0; log2 <= kMaxLog2; ++log2) {
     s.samples.push_back(std::ldexp(1.0, log2));
     const double hits =
         s.samples.back() * static_cast<double>(s.wavelengths) * kBandNm / (kLastVisibleNm - kFirstVisibleNm);
@@ -160,7 +160,7 @@ bool within(double v) {
 
 void print(const Series& s) {
   fmt::print("{:<10} {:<8} {:>2} ", s.scene, name_of(s.density), s.wavelengths);
-  for (const int log2 : {0, 4, 8, kMostLog2}) fmt::print(" {:>9.2e}", s.xyz[static_cast<std::size_t>(log2)]);
+  for (const int log2 : {0, 4, 8, kMaxLog2}) fmt::print(" {:>9.2e}", s.xyz[static_cast<std::size_t>(log2)]);
   fmt::print(" {:>7.3f} {:<6}   {:>9.2e} {:>7.3f} {:<6}\n", s.xyz_slope,
              within(s.xyz_slope) ? "met" : "MISSED", s.buckets.back(), s.bucket_slope,
              within(s.bucket_slope) ? "met" : "MISSED");
@@ -188,7 +188,7 @@ void write_plot(const char* path, const std::vector<Series>& all) {
   plot.title = "Error of XYZ against the exact picture";
   plot.x_label = "samples a pixel";
   plot.y_label = "root mean square error / mean luminance";
-  plot.x1 = std::ldexp(1.0, kMostLog2);
+  plot.x1 = std::ldexp(1.0, kMaxLog2);
   plot.y0 = plot.y1 = all[0].xyz[0];
   for (const Series& s : all) {
     plot.y0 = std::min(plot.y0, *std::min_element(s.xyz.begin(), s.xyz.end()));

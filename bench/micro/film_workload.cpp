@@ -15,7 +15,7 @@ using report::need;
 using spectile::Sensor;
 
 /// Offsets within a pixel stop short of the next one, whatever float makes of the sum.
-constexpr float kMostOffset = 0.999F;
+constexpr float kMaxOffset = 0.999F;
 
 /// Positions of fixed seed.
 class Jitter {
@@ -27,7 +27,7 @@ class Jitter {
 
  private:
   std::mt19937 engine_{1};
-  std::uniform_real_distribution<float> offset_{0.0F, kMostOffset};
+  std::uniform_real_distribution<float> offset_{0.0F, kMaxOffset};
 };
 
 /// Luminance of one sample, all in double, curves linear between nanometres.
@@ -104,7 +104,7 @@ Pool make_pool(std::size_t samples) {
   for (auto* const row : {&out.radiance, &out.lambda_nm, &out.density}) row->resize(kWavelengths * stride);
   out.u.resize(stride);
   std::mt19937 engine(3);
-  std::uniform_real_distribution<float> unit(0.0F, kMostOffset);
+  std::uniform_real_distribution<float> unit(0.0F, kMaxOffset);
   const Exact exact;
   const double end = std::tanh(kSteepness * (kCentreNm - spectile::kFirstVisibleNm));
   const double by = end + std::tanh(kSteepness * (spectile::kLastVisibleNm - kCentreNm));

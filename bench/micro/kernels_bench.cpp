@@ -153,7 +153,7 @@ std::vector<Line> lines() {
        "", false, 0},
       {"spectile upsample", n, n * (spectrum + 12),
        [] {
-         need(upsample_srgb(bench().upsampler, bench().rgb.view(), bench().spectra.span(), Stores::kCached,
+         need(upsample_srgb(bench().upsampler, bench().rgb.view(), bench().spectra.span(), StoreHint::kCached,
                             kOneThread));
        },
        [] {
@@ -215,13 +215,13 @@ std::vector<Line> lines() {
       {"upsample to DRAM, cached", large, large * spectrum,
        [] {
          need(upsample_srgb(bench().upsampler, bench().large_rgb.view(), bench().large.span(),
-                            Stores::kCached, kOneThread));
+                            StoreHint::kCached, kOneThread));
        },
        nullptr, "machine: streaming stores", true, 0},
       {"upsample to DRAM", large, large * spectrum,
        [] {
-         need(upsample_srgb(bench().upsampler, bench().large_rgb.view(), bench().large.span(), Stores::kAuto,
-                            kOneThread));
+         need(upsample_srgb(bench().upsampler, bench().large_rgb.view(), bench().large.span(),
+                            StoreHint::kAuto, kOneThread));
        },
        [] {
          // The same seed starts both batches, so the first lanes are those of the small one.

@@ -164,7 +164,7 @@ void print_gamuts() {
           rgb.at(i, k) = static_cast<float>(std::abs(v - 1) < 1e-7 ? 1.0 : v);
         }
       }
-      const GamutReport found = need(limit_gamut(upsampler, rgb.span(), OutOfGamut::kClip));
+      const GamutReport found = need(gamut_clip(upsampler, rgb.span(), OutOfGamut::kClip));
       Statistics cost;
       for (std::size_t i = 0; i < kColors; ++i) {
         const std::array<double, 3> after = {rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)};

@@ -1,8 +1,8 @@
 // Element-wise operations on samples.
 #include <cmath>
 
-#include "kernels/exponential_constants.hpp"
 #include "bench/operations/operation.hpp"
+#include "kernels/exponential_constants.hpp"
 
 namespace spectile::measure {
 namespace {

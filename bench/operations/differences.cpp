@@ -41,12 +41,12 @@ void add_ciede2000(std::vector<Operation>& to) {
   op.error = [](const double* in, const double* out, double tiny) {
     for (std::size_t k = 0; k < 6; ++k) {
       // Of infinities nothing is said here.
-      if (std::isinf(in[k])) return kNotJudged;
+      if (std::isinf(in[k])) return kOutOfDomain;
       if (std::isnan(in[k])) return std::isnan(out[0]) ? 0 : kBeyond;
     }
     const auto truth = oracle::ciede2000({in[0], in[1], in[2]}, {in[3], in[4], in[5]}, kWhite);
-    if (truth.undecided) return kNotJudged;
-    if (!(truth.value < static_cast<double>(std::numeric_limits<float>::max()))) return kNotJudged;
+    if (truth.undecided) return kOutOfDomain;
+    if (!(truth.value < static_cast<double>(std::numeric_limits<float>::max()))) return kOutOfDomain;
     const double allowed = 0x1p-24 * truth.value + 1e-12 * std::max(1.0, truth.size) + tiny;
     return std::abs(out[0] - truth.value) / allowed;
   };
@@ -75,7 +75,7 @@ void add_scan(std::vector<Operation>& to) {
     if (a.blocks * sizeof(std::uint64_t) >= sizeof(scan)) *reinterpret_cast<RgbScan*>(a.target) = scan;
   };
   op.error_of_run = [](const Arrays& a, bool flushed) {
-    if (a.blocks * sizeof(std::uint64_t) < sizeof(RgbScan)) return kNotJudged;
+    if (a.blocks * sizeof(std::uint64_t) < sizeof(RgbScan)) return kOutOfDomain;
     const RgbScan& found = *reinterpret_cast<const RgbScan*>(a.target);
     RgbScan truth;
     for (std::size_t i = 0; i < a.n(); ++i) {

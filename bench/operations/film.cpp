@@ -6,8 +6,8 @@
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/operation.hpp"
+#include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -28,12 +28,11 @@ Result<CurveRows> curve_rows() {
   auto rows = std::make_shared<std::vector<float>>((static_cast<std::size_t>(kIntervals) + 2) * 8 + 8, 0.0F);
   const char* const names[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto curve = named_spectrum(names[c]);
-    if (!curve) return curve.error();
+    SPECTILE_ASSIGN(const auto curve, named_spectrum(names[c]));
     for (std::int32_t i = 0; i <= kIntervals; ++i) {
       const double nm = kFirstNm + i;
-      const auto value = static_cast<float>((*curve)(nm));
-      const float next = i < kIntervals ? static_cast<float>((*curve)(nm + 1)) : value;
+      const auto value = static_cast<float>((curve)(nm));
+      const float next = i < kIntervals ? static_cast<float>((curve)(nm + 1)) : value;
       (*rows)[static_cast<std::size_t>(i) * 8 + c] = value;
       (*rows)[static_cast<std::size_t>(i) * 8 + 4 + c] = next - value;
     }
@@ -130,10 +129,10 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
     for (std::size_t i = 0; i < kWavelengths; ++i) {
       const double density = in[2 * kWavelengths + i];
       const bool good = std::isfinite(in[i]) && std::isfinite(in[kWavelengths + i]) && std::isfinite(density);
-      if (!good || density < 0) return kNotJudged;
-      if (density != 0 && std::abs(in[i] / density) > 0x1p120) return kNotJudged;
+      if (!good || density < 0) return kOutOfDomain;
+      if (density != 0 && std::abs(in[i] / density) > 0x1p120) return kOutOfDomain;
       // A density flushed to 0, or a quotient below the least normal number, is not what the bound is about.
-      if (density != 0 && (density < 0x1p-126 || std::abs(in[i] / density) < 0x1p-100)) return kNotJudged;
+      if (density != 0 && (density < 0x1p-126 || std::abs(in[i] / density) < 0x1p-100)) return kOutOfDomain;
     }
     return judge(in, out, tiny);
   };
@@ -173,7 +172,7 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
       },
       count, false, op.bound);
   op.error = [=](const double* in, const double* out, double tiny) {
-    if (!std::all_of(in, in + bands, [](double v) { return std::isfinite(v); })) return kNotJudged;
+    if (!std::all_of(in, in + bands, [](double v) { return std::isfinite(v); })) return kOutOfDomain;
     return judge(in, out, tiny);
   };
   to.push_back(std::move(op));
@@ -182,9 +181,8 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
 }  // namespace
 
 Result<void> add_film(std::vector<Operation>& to, const Bands& bands) {
-  const auto rows = curve_rows();
-  if (!rows) return rows.error();
-  add_wavelength_samples(to, *rows);
+  SPECTILE_ASSIGN(const auto rows, curve_rows());
+  add_wavelength_samples(to, rows);
   // Bands that no observer sees make no film.
   if (const auto projector = Projector::emissive(bands)) add_band_samples(to, *projector);
   return {};

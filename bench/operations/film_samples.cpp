@@ -162,7 +162,7 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
     }
   };
   op.error = [](const double* in, const double* out, double tiny) {
-    double worst = kNotJudged;
+    double worst = kOutOfDomain;
     for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
       const double radiance = in[k];
       const double lambda = in[kFilmWavelengths + k];

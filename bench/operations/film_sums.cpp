@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/films.hpp"
+#include "src/base/errors.hpp"
 #include "src/film/state.hpp"
 
 namespace spectile::measure {
@@ -26,9 +26,8 @@ Result<SharedFilm> film_of(bool spectral) {
   o.width = o.height = kFilmSide;
   o.spectral = spectral;
   o.statistics = PixelStatistics::kVariance;
-  auto made = Film::create(o);
-  if (!made) return made.error();
-  return std::make_shared<const Film>(*std::move(made));
+  SPECTILE_ASSIGN(auto made, Film::create(o));
+  return std::make_shared<const Film>(std::move(made));
 }
 
 double coarse_step(const Film& film, bool weight) {
@@ -284,16 +283,14 @@ void add_counts(std::vector<Operation>& to) {
 }  // namespace
 
 Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands) {
-  const auto film = film_of(false);
-  if (!film) return film.error();
-  const auto spectral = film_of(true);
-  if (!spectral) return spectral.error();
-  add_film_samples(to, *film, *spectral, bands);
-  add_colors(to, *film);
-  add_hit_sums(to, *spectral);
-  add_moments(to, *film);
+  SPECTILE_ASSIGN(const auto film, film_of(false));
+  SPECTILE_ASSIGN(const auto spectral, film_of(true));
+  add_film_samples(to, film, spectral, bands);
+  add_colors(to, film);
+  add_hit_sums(to, spectral);
+  add_moments(to, film);
   add_counts(to);
-  add_development(to, *film);
+  add_development(to, film);
   return {};
 }
 

@@ -136,12 +136,12 @@ void LaneMemory::read_out(std::size_t lane, double* values) const {
 
 void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
            Judged& out) {
-  constexpr double kLeastNormal = 0x1p-126;
+  constexpr double kSmallestNormal = 0x1p-126;
   constexpr double kDenormalStep = 0x1p-149;
   lanes = std::min(lanes, memory.lanes());
   if (operation.error_of_run) {
     const double error = operation.error_of_run(memory.arrays(0, lanes / kLanes, false), flushed);
-    if (error == kNotJudged) return;
+    if (error == kOutOfDomain) return;
     out.cases += lanes;
     if (!(error <= operation.bound)) out.beyond += lanes;
     out.worst = std::max(out.worst, error);
@@ -153,12 +153,12 @@ void judge(const Operation& operation, const LaneMemory& memory, std::size_t lan
     memory.read_in(lane, in.data());
     memory.read_out(lane, result.data());
     if (flushed && !operation.bitwise) {
-      for (double& v : in) v = std::abs(v) < kLeastNormal ? std::copysign(0.0, v) : v;
+      for (double& v : in) v = std::abs(v) < kSmallestNormal ? std::copysign(0.0, v) : v;
     }
-    const double tiny = flushed ? kLeastNormal : kDenormalStep;
+    const double tiny = flushed ? kSmallestNormal : kDenormalStep;
     const double error = operation.error_at ? operation.error_at(lane, in.data(), result.data(), tiny)
                                             : operation.error(in.data(), result.data(), tiny);
-    if (error == kNotJudged) continue;
+    if (error == kOutOfDomain) continue;
     ++out.cases;
     if (!(error <= operation.bound)) ++out.beyond;
     if (out.worst_input.empty() || !(error <= out.worst)) {

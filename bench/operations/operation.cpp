@@ -29,7 +29,7 @@ double error_of(double value, double truth, double scale, double allowance, bool
   if (single && std::abs(truth) >= kOverflow) {
     return std::isinf(value) && std::signbit(value) == std::signbit(truth) ? 0 : kBeyond;
   }
-  if (!single && scale * (1 + bound * kU) > kLargest) return kNotJudged;
+  if (!single && scale * (1 + bound * kU) > kLargest) return kOutOfDomain;
   if (!std::isfinite(value)) return kBeyond;
   const double off = std::abs(value - truth);
   if (off <= allowance) return 0;
@@ -47,7 +47,7 @@ std::function<double(const double*, const double*, double)> judged_by(std::size_
     truth.assign(outputs, 0.0);
     scale.assign(outputs, 0.0);
     oracle(in, truth.data(), scale.data());
-    double worst = kNotJudged;
+    double worst = kOutOfDomain;
     for (std::size_t i = 0; i < outputs; ++i) {
       worst = std::max(worst, error_of(out[i], truth[i], scale[i], roundings * tiny, single, bound));
     }

@@ -5,14 +5,14 @@
 #include <functional>
 #include <memory>
 #include <random>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 #include <vector>
 
-#include "kernels/abi.hpp"
 #include "bench/limits/limits.hpp"
+#include "kernels/abi.hpp"
 
 namespace spectile::measure {
 
@@ -67,7 +67,7 @@ struct Arrays {
 };
 
 /// An error that cannot be judged: the case lies outside of what the operation promises.
-inline constexpr double kNotJudged = -1;
+inline constexpr double kOutOfDomain = -1;
 
 struct Operation {
   std::string group, name;
@@ -94,7 +94,7 @@ struct Operation {
   std::function<void(Random&, float* values)> fill;
   /// Makes of any numbers what the operation may be given; empty where that is all.
   std::function<void(float* values)> admit;
-  /// Error of a lane, [planes][rows] each: at most `bound`, or kNotJudged. `tiny`: what a result or an
+  /// Error of a lane, [planes][rows] each: at most `bound`, or kOutOfDomain. `tiny`: what a result or an
   /// operand may be off by where it is below the least normal number.
   std::function<double(const double* in, const double* out, double tiny)> error;
   /// In its place, where it matters which lane it is.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/lane_memory.hpp"
+#include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -81,16 +81,15 @@ OperationSpeed speed_of(const Entry& entry, const LimitLoops& limits, const Spee
 
 Result<SpeedsFound> in_cache(const std::vector<Operation>& operations, const SpeedPlace& place) {
   const std::size_t bytes = place.bytes * static_cast<std::size_t>(place.threads);
-  auto memory = FloatBuffer::create(bytes / sizeof(float));
-  if (!memory) return memory.error();
-  LimitLoops limits(*place.table, memory->data(), bytes / sizeof(float), place.threads, place.level);
+  SPECTILE_ASSIGN(auto memory, FloatBuffer::create(bytes / sizeof(float)));
+  LimitLoops limits(*place.table, memory.data(), bytes / sizeof(float), place.threads, place.level);
   std::vector<Entry> entries(operations.size());
   std::vector<Timed*> work = limits.timed();
   for (std::size_t i = 0; i < operations.size(); ++i) {
     entries[i].operation = &operations[i];
-    auto own = FloatBuffer::create(std::max(bytes, LaneMemory::least_bytes(operations[i])) / sizeof(float));
-    if (!own) return own.error();
-    entries[i].own = *std::move(own);
+    SPECTILE_ASSIGN(auto own, FloatBuffer::create(std::max(bytes, LaneMemory::least_bytes(operations[i])) /
+                                                  sizeof(float)));
+    entries[i].own = std::move(own);
     prepare(entries[i], entries[i].own.data(), place);
     work.push_back(&entries[i].timed);
   }
@@ -102,11 +101,9 @@ Result<SpeedsFound> in_cache(const std::vector<Operation>& operations, const Spe
 }
 
 Result<SpeedsFound> in_memory(const std::vector<Operation>& operations, const SpeedPlace& place) {
-  auto mine = FloatBuffer::create(place.bytes / sizeof(float));
-  if (!mine) return mine.error();
-  auto theirs = FloatBuffer::create(place.bytes / sizeof(float));
-  if (!theirs) return theirs.error();
-  LimitLoops limits(*place.table, mine->data(), place.bytes / sizeof(float), place.threads, place.level);
+  SPECTILE_ASSIGN(auto mine, FloatBuffer::create(place.bytes / sizeof(float)));
+  SPECTILE_ASSIGN(auto theirs, FloatBuffer::create(place.bytes / sizeof(float)));
+  LimitLoops limits(*place.table, mine.data(), place.bytes / sizeof(float), place.threads, place.level);
   const std::vector<Timed*> loops = limits.timed();
   time_in_turn(loops, place.patience);
   SpeedsFound out;
@@ -119,7 +116,7 @@ Result<SpeedsFound> in_memory(const std::vector<Operation>& operations, const Sp
     if (arithmetic > traffic) continue;
     Entry entry;
     entry.operation = &op;
-    prepare(entry, theirs->data(), place);
+    prepare(entry, theirs.data(), place);
     // With the limits of the same seconds beside it.
     std::vector<Timed*> work = loops;
     work.push_back(&entry.timed);

@@ -6,8 +6,8 @@
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/operation.hpp"
+#include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -109,11 +109,9 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   add_extremes(to, n);
   add_masks(to, n);
 
-  auto light = illuminant("D65");
-  if (!light) return light.error();
-  auto made = Projector::reflective(bands, *light);
-  if (!made) return made.error();
-  const auto projector = std::make_shared<const Projector>(*std::move(made));
+  SPECTILE_ASSIGN(auto light, illuminant("D65"));
+  SPECTILE_ASSIGN(auto made, Projector::reflective(bands, light));
+  const auto projector = std::make_shared<const Projector>(std::move(made));
   auto weights = std::make_shared<std::vector<double>>(3 * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < 3; ++k) (*weights)[k * n + i] = projector->weights()[i][k];

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/sigmoid_constants.hpp"
 #include "bench/operations/operation.hpp"
+#include "kernels/sigmoid_constants.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile::measure {
@@ -89,9 +89,9 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   const bool has_cube = model.has_cube;
   solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
     if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
-    if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kNotJudged;
+    if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kOutOfDomain;
     // Bands that have no sigmoid for some colours report them.
-    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kNotJudged;
+    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kOutOfDomain;
     const auto sum = sums_of(table, c);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
@@ -150,7 +150,7 @@ void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
       size = std::max(size, std::abs(rgb[k]));
     }
     if (!(part >= 0 && part <= 1)) return kBeyond;
-    if (size > 1e30) return kNotJudged;
+    if (size > 1e30) return kOutOfDomain;
     // Of black and white nothing is asked but their coefficients; where y rounds to either, any of the two.
     if (part == 0)
       return std::abs(out[2]) >= static_cast<double>(kernels::kSigmoidFar) || promised(out) ? 0.0 : kBeyond;
@@ -191,7 +191,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = upsampler->sigmoid()->table;
   const std::size_t bands = table.bands;
   const auto samples_error = [=](const double* c, const double* out, double /*tiny*/) {
-    if (!promised(c)) return kNotJudged;
+    if (!promised(c)) return kOutOfDomain;
     double worst = 0;
     for (std::size_t b = 0; b < bands; ++b) {
       const double l = lambda_of(table, b);
@@ -231,7 +231,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       line.unit = "half ULP of half";
       line.bound = 1.001;
       line.error = [=](const double* c, const double* out, double /*tiny*/) {
-        if (!promised(c)) return kNotJudged;
+        if (!promised(c)) return kOutOfDomain;
         double worst = 0;
         for (std::size_t b = 0; b < bands; ++b) {
           const double l = lambda_of(table, b);
@@ -256,7 +256,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     k.sigmoid_project(dst, c, nullptr, t.rows, false, t.weights, bands, a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {
-    if (!promised(c)) return kNotJudged;
+    if (!promised(c)) return kOutOfDomain;
     const auto truth = sums_of(table, c);
     std::array<double, 3> allowed{};
     const double roundings = static_cast<double>(bands) / 8 + 11;

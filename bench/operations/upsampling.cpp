@@ -8,8 +8,8 @@
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/operation.hpp"
+#include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -123,7 +123,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   };
   const auto basis = basis_of(*upsampler);
   op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
-    if (!finite3(rgb)) return kNotJudged;
+    if (!finite3(rgb)) return kOutOfDomain;
     const Mixture m = mixture_of(rgb);
     double worst = 0;
     for (std::size_t row = 0; row < bands; ++row) {
@@ -133,7 +133,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
         v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
         magnitudes += std::abs(m.weight[k]) * 2;
       }
-      if (magnitudes > 1e37) return kNotJudged;
+      if (magnitudes > 1e37) return kOutOfDomain;
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
       const double rounding = 6 * 0x1p-24 * magnitudes;
       worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
@@ -189,12 +189,12 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
     for (std::size_t c = 0; c < 3; ++c) k.limit_copy(rgb[c], a.in(c), a.n());
     thread_local std::vector<std::uint64_t> moved;
     moved.resize(a.blocks);
-    k.limit_gamut(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());
+    k.gamut_clip(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());
   };
   op.error = [=](const double* rgb, const double* out, double tiny) {
-    if (!finite3(rgb)) return kNotJudged;
+    if (!finite3(rgb)) return kOutOfDomain;
     const double most = std::max({std::abs(rgb[0]), std::abs(rgb[1]), std::abs(rgb[2]), 1.0});
-    if (most > 1e30) return kNotJudged;
+    if (most > 1e30) return kOutOfDomain;
     double before = 0;
     double after = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -221,27 +221,24 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
   add_mixture(to, smits, "smits");
   // The exact methods need bands that tell colours apart: where there are none, there is nothing to measure.
   // Finding them for hundreds of bands takes minutes.
-  constexpr std::size_t kMostBands = 100;
-  if (bands.count() > kMostBands) {
+  constexpr std::size_t kMaxBands = 100;
+  if (bands.count() > kMaxBands) {
     add_gamut(to, *smits);
     return {};
   }
   if (const auto exact = made_of(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
-    auto light = illuminant("A");
-    if (!light) return light.error();
-    auto under = Projector::reflective(bands, *light);
-    if (!under) return under.error();
+    SPECTILE_ASSIGN(auto light, illuminant("A"));
+    SPECTILE_ASSIGN(auto under, Projector::reflective(bands, light));
     // The relighter refers to the others.
     struct Kept {
       std::shared_ptr<const Upsampler> upsampler;
       Projector projector;
       std::optional<Relighter> relighter;
     };
-    auto kept = std::make_shared<Kept>(Kept{exact, *std::move(under), {}});
-    auto made = Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb());
-    if (!made) return made.error();
-    kept->relighter = *std::move(made);
+    auto kept = std::make_shared<Kept>(Kept{exact, std::move(under), {}});
+    SPECTILE_ASSIGN(kept->relighter,
+                    Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
     add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
   }
   if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoids(to, sigmoids);

@@ -5,12 +5,12 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <spectile/spectra/named_spectra.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
+#include "bench/operations/operation.hpp"
 #include "kernels/exponential_constants.hpp"
 #include "src/base/errors.hpp"
-#include "bench/operations/operation.hpp"
 #include "src/lanes/knot_index.hpp"
 
 namespace spectile::measure {
@@ -157,9 +157,8 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     table->pairs.push_back(static_cast<float>(here));
     table->pairs.push_back(apart > 0 ? static_cast<float>((there - here) / apart) : 0.0F);
   }
-  auto index = index_knots(table->nm);
-  if (!index) return index.error();
-  table->index = *std::move(index);
+  SPECTILE_ASSIGN(auto index, index_knots(table->nm));
+  table->index = std::move(index);
   Operation op = wavelength_operation("look up between irregular knots");
   // The bucket (4), a gather and a comparison a halving (3 each), the line (3), what is outside (4), NaN (2).
   op.operations = 13 + 3.0 * table->index.halvings;
@@ -320,10 +319,9 @@ void add_draws(std::vector<Operation>& to) {
 }  // namespace
 
 Result<void> add_wavelengths(std::vector<Operation>& to) {
-  const auto y = named_spectrum("cie1931-y");
-  if (!y) return y.error();
-  add_tables(to, *y);
-  SPECTILE_TRY(add_knots(to, *y));
+  SPECTILE_ASSIGN(const auto y, named_spectrum("cie1931-y"));
+  add_tables(to, y);
+  SPECTILE_TRY(add_knots(to, y));
   add_planck(to);
   add_gaussians(to);
   add_draws(to);

@@ -15,7 +15,7 @@ constexpr std::array<int, 3> kSteps = {1, 2, 5};
 constexpr double kMargin = 0.04;
 constexpr double kFewDecades = 2.4;   // up to which 2 and 5 have labels too
 constexpr double kSomeDecades = 5.5;  // up to which 2 to 9 have lines
-constexpr double kMostLabels = 8;
+constexpr double kMaxLabels = 8;
 
 double log_of_step(int index) {
   const int decade = static_cast<int>(std::floor(index / 3.0));
@@ -44,7 +44,7 @@ LogAxis::LogAxis(double lowest, double highest, double from, double to) : from_(
   high_ = log_of_step(last);
 
   const double decades = high_ - low_;
-  const int labelled = std::max(1, static_cast<int>(std::ceil(decades / kMostLabels)));
+  const int labelled = std::max(1, static_cast<int>(std::ceil(decades / kMaxLabels)));
   const double slack = 1e-9;
   for (int e = static_cast<int>(std::floor(low_)); e <= high_ + slack; ++e) {
     for (int m = 1; m <= 9; ++m) {

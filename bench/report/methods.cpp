@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "bench/report/sections.hpp"
-#include "bench/report/table.hpp"
 #include "bench/report/svg_chart.hpp"
+#include "bench/report/table.hpp"
 
 namespace spectile::report {
 namespace {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "bench/report/sections.hpp"
-#include "bench/report/table.hpp"
 #include "bench/report/svg_chart.hpp"
+#include "bench/report/table.hpp"
 
 namespace spectile::report {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/lane_memory.hpp"
 #include "bench/stress/stress.hpp"
+#include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -227,11 +227,9 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
   std::vector<Found> found;
   std::vector<float> memory;
   for (const List& list : lists) {
-    auto bands = Bands::parse(list.text);
-    if (!bands) return bands.error();
-    auto operations = lane_operations(*bands);
-    if (!operations) return operations.error();
-    for (const Operation& op : *operations) {
+    SPECTILE_ASSIGN(auto bands, Bands::parse(list.text));
+    SPECTILE_ASSIGN(auto operations, lane_operations(bands));
+    for (const Operation& op : operations) {
       if (!is_chosen(op.name, settings.only)) continue;
       if (settings.stop && settings.stop())
         return make_error(ErrorCode::kCancelled, "stopped at {}", op.name);

@@ -7,14 +7,14 @@
 #include <limits>
 #include <random>
 #include <spectile/color/color_difference.hpp>
+#include <spectile/color/rgb_space.hpp>
 #include <spectile/film/film.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
 #include <spectile/upsampling/relight.hpp>
-#include <spectile/color/rgb_space.hpp>
 
-#include "src/base/errors.hpp"
 #include "bench/operations/operation.hpp"
 #include "bench/stress/stress.hpp"
+#include "src/base/errors.hpp"
 #include "src/reference/oracle/oracle.hpp"
 
 namespace spectile::measure {
@@ -45,9 +45,7 @@ Result<Film> film_of(int width, int height, const Bands& bands, bool negative_we
   FilmOptions o;
   o.width = width;
   o.height = height;
-  auto box = PixelFilter::box();
-  if (!box) return box.error();
-  o.filter = *box;
+  SPECTILE_ASSIGN(o.filter, PixelFilter::box());
   o.input = FilmInput::kBands;
   o.bands = bands;
   o.spectral = true;
@@ -56,33 +54,27 @@ Result<Film> film_of(int width, int height, const Bands& bands, bool negative_we
 }
 
 Result<FilmDevelopment> develop(const Film& film, FilmLayer layer) {
-  auto out = FilmDevelopment::create(film, layer);
-  if (!out) return out.error();
-  const auto done = out->update({1});
-  if (!done) return done.error();
+  SPECTILE_ASSIGN(auto out, FilmDevelopment::create(film, layer));
+  SPECTILE_ASSIGN(const auto done, out.update({1}));
   return out;
 }
 
 /// 2^24 + 1 additions of 1: float stops counting at 2^24.
 Result<StressResult> film_counts(const StressSettings& /*settings*/) {
   StressResult out = heading("2^24 + 1 samples of 1 in one pixel", "exact", 0);
-  const auto bands = Bands::uniform(400, 700, 100);
-  if (!bands) return bands.error();
-  auto film = film_of(1, 1, *bands, false);
-  if (!film) return film.error();
+  SPECTILE_ASSIGN(const auto bands, Bands::uniform(400, 700, 100));
+  SPECTILE_ASSIGN(auto film, film_of(1, 1, bands, false));
   constexpr std::size_t kPart = 65281;  // 2^24 + 1 = 257 * 65281
   const std::vector<float> at(kPart, 0.5F);
   const std::vector<float> ones(3 * kPart, 1.0F);
-  for (int i = 0; i < 257; ++i) SPECTILE_TRY(film->add(BandSamples{at, at, {}, {ones.data(), 3, kPart}}));
-  const auto weight = develop(*film, FilmLayer::kWeight);
-  if (!weight) return weight.error();
-  const auto spectrum = develop(*film, FilmLayer::kSpectrum);
-  if (!spectrum) return spectrum.error();
+  for (int i = 0; i < 257; ++i) SPECTILE_TRY(film.add(BandSamples{at, at, {}, {ones.data(), 3, kPart}}));
+  SPECTILE_ASSIGN(const auto weight, develop(film, FilmLayer::kWeight));
+  SPECTILE_ASSIGN(const auto spectrum, develop(film, FilmLayer::kSpectrum));
   // 2^24 + 1 lies halfway between two floats; the even one is 2^24.
-  note(out, std::abs(static_cast<double>(weight->at(0, 0, 0)) - 0x1p24), "the sum of weights");
-  note(out, std::abs(static_cast<double>(film->stats().accepted) - 16777217.0), "the count");
+  note(out, std::abs(static_cast<double>(weight.at(0, 0, 0)) - 0x1p24), "the sum of weights");
+  note(out, std::abs(static_cast<double>(film.stats().accepted) - 16777217.0), "the count");
   for (std::size_t b = 0; b < 3; ++b) {
-    note(out, std::abs(static_cast<double>(spectrum->at(b, 0, 0)) - 1.0), "the mean");
+    note(out, std::abs(static_cast<double>(spectrum.at(b, 0, 0)) - 1.0), "the mean");
   }
   return out;
 }
@@ -91,12 +83,10 @@ Result<StressResult> film_counts(const StressSettings& /*settings*/) {
 Result<StressResult> film_cancellation(const StressSettings& settings) {
   StressResult out =
       heading("values to 2^31 and their opposites around multiples of 2^-19", "u of the mean", 1.001);
-  const auto bands = Bands::uniform(400, 700, 300);
-  if (!bands) return bands.error();
+  SPECTILE_ASSIGN(const auto bands, Bands::uniform(400, 700, 300));
   constexpr int kSide = 64;
   constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
-  auto film = film_of(kSide, kSide, *bands, false);
-  if (!film) return film.error();
+  SPECTILE_ASSIGN(auto film, film_of(kSide, kSide, bands, false));
   Random random(settings.seed);
   std::vector<float> x(kPixels), y(kPixels), value(kPixels);
   std::vector<double> sum(kPixels, 0.0);
@@ -107,7 +97,7 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
     y[i] = static_cast<float>(line) + 0.5F;
     large[i] = std::ldexp(uniform(random, 1.0F, 2.0F), static_cast<int>(random() % 30));
   }
-  const auto add = [&]() { return film->add(BandSamples{x, y, {}, {value.data(), 1, kPixels}}); };
+  const auto add = [&]() { return film.add(BandSamples{x, y, {}, {value.data(), 1, kPixels}}); };
   const int rounds = 16;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < kPixels; ++i) value[i] = large[i];
@@ -121,12 +111,11 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
     for (std::size_t i = 0; i < kPixels; ++i) value[i] = -large[i];
     SPECTILE_TRY(add());
   }
-  const auto spectrum = develop(*film, FilmLayer::kSpectrum);
-  if (!spectrum) return spectrum.error();
+  SPECTILE_ASSIGN(const auto spectrum, develop(film, FilmLayer::kSpectrum));
   for (std::size_t i = 0; i < kPixels; ++i) {
     const double truth = sum[i] / (3.0 * rounds);
     const auto found =
-        static_cast<double>(spectrum->at(0, static_cast<int>(i % kSide), static_cast<int>(i / kSide)));
+        static_cast<double>(spectrum.at(0, static_cast<int>(i % kSide), static_cast<int>(i / kSide)));
     const double error =
         truth == 0 ? std::abs(found) * 0x1p100 : std::abs(found - truth) / std::abs(truth) * 0x1p24;
     note(out, error, fmt::format("a pixel whose samples sum to {:.9g}", sum[i]));
@@ -138,14 +127,12 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
 Result<StressResult> film_anything(const StressSettings& settings) {
   StressResult out =
       heading("all bit patterns as position, weight and radiance", "not counted, or not finite", 0);
-  const auto bands = Bands::uniform(400, 700, 100);
-  if (!bands) return bands.error();
+  SPECTILE_ASSIGN(const auto bands, Bands::uniform(400, 700, 100));
   constexpr int kSide = 16;
   Random random(settings.seed);
   const std::size_t n = std::max<std::size_t>(4096, settings.samples / 8);
   for (const bool negative : {false, true}) {
-    auto film = film_of(kSide, kSide, *bands, negative);
-    if (!film) return film.error();
+    SPECTILE_ASSIGN(auto film, film_of(kSide, kSide, bands, negative));
     std::vector<float> x(n), y(n), weight(n), radiance(3 * n);
     const auto any = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(random() >> 32U)); };
     for (std::size_t i = 0; i < n; ++i) {
@@ -154,16 +141,15 @@ Result<StressResult> film_anything(const StressSettings& settings) {
       weight[i] = i % 5 == 0 ? any() : uniform(random, 0.0F, 2.0F);
     }
     for (std::size_t i = 0; i < 3 * n; ++i) radiance[i] = i % 3 == 0 ? uniform(random, 0.0F, 1.0F) : any();
-    SPECTILE_TRY(film->add(BandSamples{x, y, weight, {radiance.data(), 3, n}}));
-    const FilmStats stats = film->stats();
+    SPECTILE_TRY(film.add(BandSamples{x, y, weight, {radiance.data(), 3, n}}));
+    const FilmStats stats = film.stats();
     const std::uint64_t counted = stats.accepted + stats.rejected.total();
     note(out, std::abs(static_cast<double>(counted) - static_cast<double>(n)), "samples counted");
     for (const FilmLayer layer : {FilmLayer::kXyz, FilmLayer::kSpectrum, FilmLayer::kWeight}) {
-      const auto picture = develop(*film, layer);
-      if (!picture) return picture.error();
-      for (std::size_t p = 0; p < picture->planes(); ++p) {
+      SPECTILE_ASSIGN(const auto picture, develop(film, layer));
+      for (std::size_t p = 0; p < picture.planes(); ++p) {
         for (int i = 0; i < kSide * kSide; ++i) {
-          note(out, std::isfinite(picture->at(p, i % kSide, i / kSide)) ? 0 : kBeyond, "a pixel");
+          note(out, std::isfinite(picture.at(p, i % kSide, i / kSide)) ? 0 : kBeyond, "a pixel");
         }
       }
     }
@@ -180,8 +166,7 @@ Result<StressResult> band_averages(const StressSettings& settings) {
   std::vector<const char*> lists = {"360:830:470", "400:700:5", "380:780:0.1"};
   const int spectra = settings.few_bands ? 20 : 200;
   for (const char* text : lists) {
-    const auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
+    SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
     for (int s = 0; s < spectra; ++s) {
       std::vector<double> nm;
       std::vector<double> values;
@@ -202,13 +187,12 @@ Result<StressResult> band_averages(const StressSettings& settings) {
             values.push_back(scale * static_cast<double>(uniform(random, 0.0F, 1.0F)));
           }
       }
-      const auto spectrum = MeasuredSpectrum::from_samples(nm, values);
-      if (!spectrum) return spectrum.error();
-      const std::vector<float> found = spectrum->average_over(*bands);
+      SPECTILE_ASSIGN(const auto spectrum, MeasuredSpectrum::from_samples(nm, values));
+      const std::vector<float> found = spectrum.average_over(bands);
       const double largest = *std::max_element(values.begin(), values.end());
-      for (std::size_t b = 0; b < bands->count(); ++b) {
-        const double truth = oracle::average(spectrum->wavelengths_nm(), spectrum->values(),
-                                             (*bands)[b].lower_nm, (*bands)[b].upper_nm);
+      for (std::size_t b = 0; b < bands.count(); ++b) {
+        const double truth = oracle::average(spectrum.wavelengths_nm(), spectrum.values(),
+                                             (bands)[b].lower_nm, (bands)[b].upper_nm);
         note(out, std::abs(static_cast<double>(found[b]) - truth) / (0x1p-24 * largest),
              fmt::format("a spectrum at {} nm over {}", line, text));
       }
@@ -222,18 +206,15 @@ Result<StressResult> projection_weights(const StressSettings& settings) {
   // The oracle sums at 0.01 nm: that is what it is off by itself.
   StressResult out = heading("lights smooth and spiky, bands of 0.5 to 470 nm", "of Y", 1e-7);
   for (const char* text : {"360:830:470", "400:700:5", "380:780:0.5"}) {
-    const auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
+    SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
     for (const char* name : {"D65", "A", "FL11", "HP1", "LED-RGB1"}) {
       if (settings.few_bands && std::string_view(name) != "FL11") continue;
-      const auto light = illuminant(name);
-      if (!light) return light.error();
-      const auto found = Projector::reflective(*bands, *light);
-      if (!found) return found.error();
-      const auto truth = oracle::projection_weights(*bands, Observer::kCie1931, &*light);
-      for (std::size_t b = 0; b < bands->count(); ++b) {
+      SPECTILE_ASSIGN(const auto light, illuminant(name));
+      SPECTILE_ASSIGN(const auto found, Projector::reflective(bands, light));
+      const auto truth = oracle::projection_weights(bands, Observer::kCie1931, &light);
+      for (std::size_t b = 0; b < bands.count(); ++b) {
         for (std::size_t k = 0; k < 3; ++k) {
-          note(out, std::abs(found->weights()[b][k] - truth[b][k]), fmt::format("{} on {}", name, text));
+          note(out, std::abs(found.weights()[b][k] - truth[b][k]), fmt::format("{} on {}", name, text));
         }
       }
     }
@@ -300,15 +281,11 @@ Result<StressResult> folding(const StressSettings& settings) {
   constexpr std::size_t kLanes = 4096;
   Random random(settings.seed);
   for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kMallett}) {
-    const auto upsampler = Upsampler::create(method, Quantity::kReflectance, bands);
-    if (!upsampler) return upsampler.error();
+    SPECTILE_ASSIGN(const auto upsampler, Upsampler::create(method, Quantity::kReflectance, bands));
     for (const char* name : {"D65", "FL11"}) {
-      const auto light = illuminant(name);
-      if (!light) return light.error();
-      const auto under = Projector::reflective(bands, *light);
-      if (!under) return under.error();
-      const auto relighter = Relighter::create(*upsampler, *under, under->xyz_to_srgb());
-      if (!relighter) return relighter.error();
+      SPECTILE_ASSIGN(const auto light, illuminant(name));
+      SPECTILE_ASSIGN(const auto under, Projector::reflective(bands, light));
+      SPECTILE_ASSIGN(const auto relighter, Relighter::create(upsampler, under, under.xyz_to_srgb()));
       auto rgb = ColorLanes::create(kLanes);
       auto folded = ColorLanes::create(kLanes);
       auto spectra = SampledSpectra::create(bands, kLanes);
@@ -318,21 +295,21 @@ Result<StressResult> folding(const StressSettings& settings) {
         const float scale = i % 3 == 0 ? 1.0F : i % 3 == 1 ? 1e30F : 1e-30F;
         for (std::size_t k = 0; k < 3; ++k) rgb->at(i, k) = scale * uniform(random, 0.0F, 1.0F);
       }
-      SPECTILE_TRY(relight(*relighter, rgb->view(), folded->span(), {1}));
-      SPECTILE_TRY(upsample_srgb(*upsampler, rgb->view(), spectra->span(), Stores::kAuto, {1}));
+      SPECTILE_TRY(relight(relighter, rgb->view(), folded->span(), {1}));
+      SPECTILE_TRY(upsample_srgb(upsampler, rgb->view(), spectra->span(), StoreHint::kAuto, {1}));
       for (std::size_t i = 0; i < kLanes; ++i) {
         std::array<double, 3> xyz{};
         for (std::size_t b = 0; b < bands.count(); ++b) {
           for (std::size_t k = 0; k < 3; ++k) {
-            xyz[k] += under->weights()[b][k] * static_cast<double>(spectra->at(i, b));
+            xyz[k] += under.weights()[b][k] * static_cast<double>(spectra->at(i, b));
           }
         }
-        const auto truth = times(under->xyz_to_srgb(), xyz);
+        const auto truth = times(under.xyz_to_srgb(), xyz);
         const double largest = static_cast<double>(std::max({rgb->at(i, 0), rgb->at(i, 1), rgb->at(i, 2)}));
         if (largest == 0) continue;
         for (std::size_t k = 0; k < 3; ++k) {
           const double off = std::abs(static_cast<double>(folded->at(i, k)) - truth[k]) / largest;
-          note(out, off / relighter->bound()[k], fmt::format("{} under {}", to_string(method), name));
+          note(out, off / relighter.bound()[k], fmt::format("{} under {}", to_string(method), name));
         }
       }
     }
@@ -359,10 +336,9 @@ Result<std::vector<StressResult>> stress_others(const StressSettings& settings) 
     if (settings.stop && settings.stop()) {
       return make_error(ErrorCode::kCancelled, "stopped at {}", part.operation);
     }
-    auto found = part.run(settings);
-    if (!found) return found.error();
-    found->operation = part.operation;
-    out.push_back(*std::move(found));
+    SPECTILE_ASSIGN(auto found, part.run(settings));
+    found.operation = part.operation;
+    out.push_back(std::move(found));
   }
   return out;
 }

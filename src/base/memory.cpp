@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/float_buffer.hpp>
 #include <vector>
 
 #include "src/base/errors.hpp"

@@ -77,7 +77,7 @@ nlohmann::json to_json(const Job& job, const ImageReport& r) {
           {"negative_pixels", r.negative_pixels},
           {"over_one_pixels", r.over_one_pixels},
           {"out_of_gamut_pixels", r.out_of_gamut_pixels},
-          {"limited_pixels", r.limited_pixels},
+          {"clamped_pixels", r.clamped_pixels},
           {"bytes_written", r.bytes_written},
           {"seconds", r.seconds},
           {"skipped",
@@ -126,9 +126,9 @@ void print_report(const Job& job, const ImageReport& r, bool stats) {
   if (r.out_of_gamut_pixels > 0) {
     fmt::print("  {} outside the method's gamut\n", plural(r.out_of_gamut_pixels, "pixel"));
   }
-  if (r.limited_pixels > 0) {
+  if (r.clamped_pixels > 0) {
     fmt::print("  {} beyond the range of half, limited to 65504; --pixel float keeps them\n",
-               plural(r.limited_pixels, "pixel"));
+               plural(r.clamped_pixels, "pixel"));
   }
   for (const std::string& note : r.notes) fmt::print("  {}\n", note);
   if (stats) print_skipped(r.skipped);

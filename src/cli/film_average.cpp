@@ -25,7 +25,7 @@ nlohmann::json to_json(const Arguments& a, const AverageOptions& options, const 
                         {"width", r.width},
                         {"height", r.height},
                         {"nonfinite_pixels", r.nonfinite_pixels},
-                        {"limited_pixels", r.limited_pixels},
+                        {"clamped_pixels", r.clamped_pixels},
                         {"bytes_written", r.bytes_written},
                         {"seconds", r.seconds},
                         {"mpixel_per_s", static_cast<double>(r.pixels()) / r.seconds * 1e-6}};
@@ -41,9 +41,9 @@ void print_report(const Arguments& a, const ImageReport& r) {
   if (r.nonfinite_pixels > 0) {
     fmt::print("  {} pixel{} with non-finite samples, which were left out\n", r.nonfinite_pixels, s);
   }
-  if (r.limited_pixels > 0) {
+  if (r.clamped_pixels > 0) {
     fmt::print("  {} pixel{} beyond the range of half, limited to 65504; --pixel float keeps them\n",
-               r.limited_pixels, r.limited_pixels == 1 ? "" : "s");
+               r.clamped_pixels, r.clamped_pixels == 1 ? "" : "s");
   }
 }
 

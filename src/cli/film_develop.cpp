@@ -74,16 +74,16 @@ int run(const Arguments& a) {
                                 {"width", report->width},
                                 {"height", report->height},
                                 {"samples", stats.accepted},
-                                {"limited_samples", report->limited_pixels},
+                                {"limited_samples", report->clamped_pixels},
                                 {"bytes_written", report->bytes_written},
                                 {"seconds", report->seconds}};
     fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (!a.common.quiet) {
     fmt::print("{} -> {}: {} x {}, {} of {} samples, {}, {:.2f} s\n", a.input, a.output, report->width,
                report->height, a.to, stats.accepted, size_text(report->bytes_written), report->seconds);
-    if (report->limited_pixels > 0) {
+    if (report->clamped_pixels > 0) {
       fmt::print("  {} values beyond the range of half, limited to 65504; --pixel float keeps them\n",
-                 report->limited_pixels);
+                 report->clamped_pixels);
     }
   }
   return kOk;

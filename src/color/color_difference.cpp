@@ -127,7 +127,7 @@ double ciede2000(const Lab& reference, const Lab& sample) {
 }
 
 Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double, 3>& white,
-                       LanesSpan difference, const Execution& how) {
+                       LanesSpan difference, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(xyz_a.lanes, xyz_b.lanes));
   SPECTILE_TRY(shape::same_lanes(xyz_a.lanes, difference.lanes));
   for (const float* plane : xyz_a.c) SPECTILE_TRY(shape::aligned(plane));
@@ -139,7 +139,7 @@ Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double
                         white[1], white[2]);
     }
   }
-  tiles::for_blocks(blocks_for(difference.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(difference.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t end = std::min(difference.lanes, (first + count) * kLanesPerBlock);
     for (std::size_t i = first * kLanesPerBlock; i < end; ++i) {
       const Lab a = xyz_to_lab({xyz_a.c[0][i], xyz_a.c[1][i], xyz_a.c[2][i]}, white);

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <spectile/color/colorimetry.hpp>
 
+#include "src/color/color_matrix.hpp"
 #include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/spectra/planned_bands.hpp"
-#include "src/color/color_matrix.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/spectra/planned_bands.hpp"
 
 namespace spectile {
 namespace {
@@ -42,10 +42,9 @@ Result<std::vector<std::array<double, 3>>> planned_weights(const Plan& plan, con
   SPECTILE_TRY(check_observer(plan, observer));
   std::vector<std::array<double, 3>> out = plan.sensor;
   if (light == nullptr) return out;
-  const auto index = planned_light(plan, *light);
-  if (!index) return index.error();
+  SPECTILE_ASSIGN(const auto index, planned_light(plan, *light));
   for (std::size_t b = 0; b < out.size(); ++b) {
-    for (double& v : out[b]) v *= plan.lights[*index].emission[b];
+    for (double& v : out[b]) v *= plan.lights[index].emission[b];
   }
   return out;
 }
@@ -72,9 +71,7 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
         for (std::size_t k = 0; k < 3; ++k) d65_white[k] += w[k];
       }
     }
-    auto weights = planned_weights(*bands.plan(), light, observer);
-    if (!weights) return weights.error();
-    projector.weights_ = *std::move(weights);
+    SPECTILE_ASSIGN(projector.weights_, planned_weights(*bands.plan(), light, observer));
   }
   double luminance = 0;
   for (const auto& w : projector.weights_) luminance += w[1];
@@ -123,35 +120,32 @@ std::array<double, 3> Projector::white() const noexcept {
 }
 
 Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
-                     const Execution& how) {
+                     const Execution& execution) {
   SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, xyz.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   for (const float* plane : xyz.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t bands = spectra.bands.count();
-  tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->project(xyz.c[0] + at, xyz.c[1] + at, xyz.c[2] + at, spectra.data + at * bands,
-                      projector.float_weights(), bands, count);
+    table->project(xyz.c[0] + at, xyz.c[1] + at, xyz.c[2] + at, spectra.data + at * bands,
+                   projector.float_weights(), bands, count);
   });
   return {};
 }
 
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
-                       const Execution& how) {
+                       const Execution& execution) {
   SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_TRY(shape::aligned(y.data));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t bands = spectra.bands.count();
-  tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands,
-                           count);
+    table->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands, count);
   });
   return {};
 }
@@ -167,28 +161,27 @@ const Matrix3& xyz_to_srgb_matrix() {
   return matrix;
 }
 
-Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& how) {
+Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(in.lanes, out.lanes));
   for (const float* plane : in.c) SPECTILE_TRY(shape::aligned(plane));
   for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::array<float, 9> m = color::to_float(matrix);
-  tiles::for_blocks(blocks_for(in.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(in.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const src[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
     float* const dst[3] = {out.c[0] + at, out.c[1] + at, out.c[2] + at};
-    (*table)->transform3(dst, src, m.data(), count * kLanesPerBlock);
+    table->transform3(dst, src, m.data(), count * kLanesPerBlock);
   });
   return {};
 }
 
-Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& how) {
-  return transform(xyz_to_srgb_matrix(), xyz, rgb, how);
+Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& execution) {
+  return transform(xyz_to_srgb_matrix(), xyz, rgb, execution);
 }
 
-Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& how) {
-  return transform(srgb_to_xyz_matrix(), rgb, xyz, how);
+Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& execution) {
+  return transform(srgb_to_xyz_matrix(), rgb, xyz, execution);
 }
 
 }  // namespace spectile

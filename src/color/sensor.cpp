@@ -127,33 +127,31 @@ Result<SensorProjector> SensorProjector::create(const Sensor& sensor, const Band
 }
 
 Result<void> project(const SensorProjector& projector, SampledSpectraView spectra, ColorSpan rgb,
-                     const Execution& how) {
+                     const Execution& execution) {
   SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, rgb.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t bands = spectra.bands.count();
-  tiles::for_blocks(spectra.blocks(), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->project(rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at, spectra.data + at * bands,
-                      projector.float_weights(), bands, count);
+    table->project(rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at, spectra.data + at * bands,
+                   projector.float_weights(), bands, count);
   });
   return {};
 }
 
 Result<SensorFit> fit_sensor_to_xyz(const Sensor& sensor, const Spectrum& light) {
-  const auto observer = Sensor::named("cie1931");
-  if (!observer) return observer.error();
-  const Triple white = observer->response(light);
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  const Triple white = observer.response(light);
   if (!(white[1] > 0)) return make_error(ErrorCode::kBadArgument, "the light has no luminance");
   std::vector<Triple> seen;
   std::vector<Triple> wanted;
   for (const data::NamedTable& table : data::colorchecker()) {
     const Spectrum patch = patch_of(table);
     seen.push_back(sensor.response(light, patch));
-    Triple xyz = observer->response(light, patch);
+    Triple xyz = observer.response(light, patch);
     for (double& v : xyz) v /= white[1];
     wanted.push_back(xyz);
   }
@@ -173,8 +171,8 @@ Result<SensorFit> fit_sensor_to_xyz(const Sensor& sensor, const Spectrum& light)
       }
     }
   }
-  constexpr double kLeastDeterminant = 1e-9;  // of 24 patches of about 1
-  if (!(determinant(squares) > kLeastDeterminant)) {
+  constexpr double kMinDeterminant = 1e-9;  // of 24 patches of about 1
+  if (!(determinant(squares) > kMinDeterminant)) {
     return make_error(ErrorCode::kBadArgument,
                       "the sensor's responses to the 24 patches under this light are not independent");
   }

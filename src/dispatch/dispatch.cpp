@@ -124,9 +124,8 @@ Result<void> force(std::string_view name) {
     forced.store(nullptr, std::memory_order_release);
     return {};
   }
-  const auto table = find(name);
-  if (!table) return table.error();
-  forced.store(*table, std::memory_order_release);
+  SPECTILE_ASSIGN(const auto table, find(name));
+  forced.store(table, std::memory_order_release);
   return {};
 }
 
@@ -139,9 +138,8 @@ std::vector<std::string> available_isas() {
 }
 
 Result<std::string> active_isa() {
-  const auto table = dispatch::active();
-  if (!table) return table.error();
-  return std::string((*table)->name);
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
+  return std::string(table->name);
 }
 
 Result<void> force_isa(std::string_view name) {

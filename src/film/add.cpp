@@ -55,9 +55,7 @@ Result<Batch> chunk_of(const Batch& batch, std::size_t first, std::size_t n, Fil
   if (n == whole) return out;
   const std::size_t rows = 3 + batch.radiance.count + batch.lambda_nm.count + batch.density.count;
   if (scratch.padded.size() < rows * kChunk) {
-    auto memory = FloatBuffer::create(rows * kChunk);
-    if (!memory) return memory.error();
-    scratch.padded = *std::move(memory);
+    SPECTILE_ASSIGN(scratch.padded, FloatBuffer::create(rows * kChunk));
   }
   float* to = scratch.padded.data();
   const auto copy = [&](const float*& row) {
@@ -79,9 +77,7 @@ Result<Batch> chunk_of(const Batch& batch, std::size_t first, std::size_t n, Fil
 Result<void> make_room(const State& s, std::size_t wavelengths, FilmScratch& scratch) {
   const auto floats = [](FloatBuffer& buffer, std::size_t count) -> Result<void> {
     if (buffer.size() >= count) return {};
-    auto memory = FloatBuffer::create(count);
-    if (!memory) return memory.error();
-    buffer = *std::move(memory);
+    SPECTILE_ASSIGN(buffer, FloatBuffer::create(count));
     return {};
   };
   scratch.quad_floats = 4 * kChunk;
@@ -136,16 +132,15 @@ void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch
 
 Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch& whole, std::size_t first,
                        std::size_t n, FilmScratch& scratch) {
-  const auto batch = chunk_of(whole, first, n, scratch);
-  if (!batch) return batch.error();
+  SPECTILE_ASSIGN(const auto batch, chunk_of(whole, first, n, scratch));
   const std::size_t padded = blocks_for(n) * kLanes;
-  weigh(s, table, *batch, padded, scratch);
+  weigh(s, table, batch, padded, scratch);
   std::array<std::uint64_t, kFilmReasons> counts{};
   const FilmContributions contributions = {.wavelengths = whole.radiance.count, .samples = padded};
   if (s.options.placement == SamplePlacement::kOnePixel) {
     std::int32_t tiles[2] = {std::numeric_limits<std::int32_t>::max(), -1};
-    table.film_place(scratch.address.data(), tiles, counts.data(), s.kernel_window, batch->x, batch->y,
-                     batch->weight, scratch.reasons.data(), n);
+    table.film_place(scratch.address.data(), tiles, counts.data(), s.kernel_window, batch.x, batch.y,
+                     batch.weight, scratch.reasons.data(), n);
     SPECTILE_TRY(add_entries(s, table, contributions,
                              {.sample = nullptr,
                               .address = scratch.address.data(),
@@ -154,7 +149,7 @@ Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch&
                               .tile = tiles[0] == tiles[1] ? tiles[0] : -1},
                              scratch));
   } else {
-    SPECTILE_TRY(splat(s, table, contributions, batch->x, batch->y, batch->weight, n, counts, scratch));
+    SPECTILE_TRY(splat(s, table, contributions, batch.x, batch.y, batch.weight, n, counts, scratch));
   }
   for (std::size_t r = 0; r < kFilmReasons; ++r) {
     if (counts[r] > 0) s.counts[r].fetch_add(counts[r], std::memory_order_relaxed);
@@ -208,20 +203,19 @@ Result<void> rows_fit(const char* what, const RowsView& rows, std::size_t count,
   return {};
 }
 
-Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execution& how) {
+Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execution& execution) {
   if (n == 0) return {};
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::shared_lock lock(s.whole);
   std::mutex mutex;
   Result<void> result;
-  tiles::for_blocks(blocks_for(n), how, [&](std::size_t first_block, std::size_t blocks) {
+  tiles::for_blocks(blocks_for(n), execution, [&](std::size_t first_block, std::size_t blocks) {
     const auto run = [&]() -> Result<void> {
       Lent scratch(s);
       SPECTILE_TRY(make_room(s, batch.radiance.count, *scratch));
       const std::size_t end = std::min(n, (first_block + blocks) * kLanes);
       for (std::size_t i = first_block * kLanes; i < end; i += kChunk) {
-        SPECTILE_TRY(add_chunk(s, **table, batch, i, std::min(kChunk, end - i), *scratch));
+        SPECTILE_TRY(add_chunk(s, *table, batch, i, std::min(kChunk, end - i), *scratch));
       }
       return {};
     };
@@ -246,7 +240,7 @@ const float* weight_of(std::span<const float> weight) {
 
 }  // namespace
 
-Result<void> Film::add(const WavelengthSamples& samples, const Execution& how) {
+Result<void> Film::add(const WavelengthSamples& samples, const Execution& execution) {
   const std::size_t n = samples.x.size();
   if (state_->options.input != FilmInput::kWavelengths) {
     return make_error(ErrorCode::kBadArgument, "the film takes radiance on its bands, not at wavelengths");
@@ -254,9 +248,9 @@ Result<void> Film::add(const WavelengthSamples& samples, const Execution& how) {
   SPECTILE_TRY(same_size("other coordinates", samples.y.size(), n));
   if (!samples.weight.empty()) SPECTILE_TRY(same_size("weights", samples.weight.size(), n));
   const std::size_t count = samples.radiance.count;
-  if (count == 0 || count > WavelengthLanes::kMostWavelengths) {
+  if (count == 0 || count > WavelengthLanes::kMaxWavelengths) {
     return make_error(ErrorCode::kBadArgument, "a sample takes 1 to {} wavelengths, not {}",
-                      WavelengthLanes::kMostWavelengths, count);
+                      WavelengthLanes::kMaxWavelengths, count);
   }
   SPECTILE_TRY(rows_fit("radiance", samples.radiance, count, n));
   SPECTILE_TRY(rows_fit("wavelengths", samples.lambda_nm, count, n));
@@ -264,10 +258,10 @@ Result<void> Film::add(const WavelengthSamples& samples, const Execution& how) {
   return add_batch(*state_,
                    {samples.x.data(), samples.y.data(), weight_of(samples.weight), samples.radiance,
                     samples.lambda_nm, samples.density},
-                   n, how);
+                   n, execution);
 }
 
-Result<void> Film::add(const BandSamples& samples, const Execution& how) {
+Result<void> Film::add(const BandSamples& samples, const Execution& execution) {
   const std::size_t n = samples.x.size();
   if (state_->options.input != FilmInput::kBands) {
     return make_error(ErrorCode::kBadArgument, "the film takes radiance at wavelengths, not on bands");
@@ -281,7 +275,7 @@ Result<void> Film::add(const BandSamples& samples, const Execution& how) {
   SPECTILE_TRY(rows_fit("radiance", samples.radiance, samples.radiance.count, n));
   return add_batch(*state_,
                    {samples.x.data(), samples.y.data(), weight_of(samples.weight), samples.radiance, {}, {}},
-                   n, how);
+                   n, execution);
 }
 
 }  // namespace spectile

@@ -46,19 +46,16 @@ Result<std::size_t> planes_of(const FilmOptions& o, FilmLayer layer, std::size_t
 }  // namespace
 
 Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer layer, std::size_t sensor) {
-  const auto planes = planes_of(film.options(), layer, sensor);
-  if (!planes) return planes.error();
+  SPECTILE_ASSIGN(const auto planes, planes_of(film.options(), layer, sensor));
   FilmDevelopment out;
   out.film_ = film.state_;
   out.layer_ = layer;
   out.sensor_ = sensor;
   out.window_ = film.window();
-  out.planes_ = *planes;
+  out.planes_ = planes;
   out.stride_ = static_cast<std::size_t>(out.window_.width());
   out.plane_floats_ = out.stride_ * static_cast<std::size_t>(out.window_.height());
-  auto pixels = FloatBuffer::create(out.planes_ * out.plane_floats_);
-  if (!pixels) return pixels.error();
-  out.pixels_ = *std::move(pixels);
+  SPECTILE_ASSIGN(out.pixels_, FloatBuffer::create(out.planes_ * out.plane_floats_));
   std::fill_n(out.pixels_.data(), out.pixels_.size(), 0.0F);
   try {
     out.seen_.assign(FilmAccess::state(film).tiles.size(), 0);
@@ -69,7 +66,7 @@ Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer laye
   return out;
 }
 
-Result<DevelopStats> FilmDevelopment::update(const Execution& how) {
+Result<DevelopStats> FilmDevelopment::update(const Execution& execution) {
   const State& s = *film_;
   std::atomic<std::size_t> developed = 0;
   std::atomic<std::size_t> unchanged = 0;
@@ -78,7 +75,7 @@ Result<DevelopStats> FilmDevelopment::update(const Execution& how) {
   // A tile is some microseconds of work: a task takes a few.
   constexpr std::size_t kTilesAtOnce = 16;
   const std::size_t tasks = (s.tiles.size() + kTilesAtOnce - 1) / kTilesAtOnce;
-  tiles::for_blocks(tasks, {how.threads, kLanesPerBlock}, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(tasks, {execution.threads, kLanesPerBlock}, [&](std::size_t first, std::size_t count) {
     const std::size_t end = std::min(s.tiles.size(), (first + count) * kTilesAtOnce);
     for (std::size_t t = first * kTilesAtOnce; t < end; ++t) {
       const std::scoped_lock lock(s.mutex_of(t));

@@ -23,7 +23,7 @@ constexpr std::uint64_t kSettleAfter = std::uint64_t{1} << 18;
 
 /// Runs within a tile that are taken one by one, and entries that each must hold for that to pay: else they
 /// are sorted first.
-constexpr std::size_t kMostRuns = 128;
+constexpr std::size_t kMaxRuns = 128;
 constexpr std::size_t kEntriesARun = 8;
 
 std::size_t tile_of(std::int32_t address) {
@@ -127,9 +127,9 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
     return {};
   }
   // Runs of entries in one tile; those that reach no pixel belong to the run around them.
-  std::array<std::size_t, kMostRuns> run_ends{};
-  std::array<std::size_t, kMostRuns> run_tiles{};
-  const std::size_t most = std::clamp<std::size_t>(entries.count / kEntriesARun, 1, kMostRuns);
+  std::array<std::size_t, kMaxRuns> run_ends{};
+  std::array<std::size_t, kMaxRuns> run_tiles{};
+  const std::size_t most = std::clamp<std::size_t>(entries.count / kEntriesARun, 1, kMaxRuns);
   std::size_t runs = 0;
   std::int32_t last = -1;
   for (std::size_t i = 0; i < entries.count && runs <= most; ++i) {

@@ -19,10 +19,9 @@ Film::~Film() = default;
 
 Result<Film> Film::create(const FilmOptions& options) {
   try {
-    auto state = prepare_film(options);
-    if (!state) return state.error();
-    SPECTILE_TRY(make_film_responses(**state));
-    return Film(*std::move(state));
+    SPECTILE_ASSIGN(auto state, prepare_film(options));
+    SPECTILE_TRY(make_film_responses(*state));
+    return Film(std::move(state));
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kOutOfMemory, "no memory for a film of {} x {} pixels", options.width,
                       options.height);

@@ -28,7 +28,7 @@ class MagnitudeTable {
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       // At least these many a piece, so that it is near to linear in a cell; the error is their square's.
       const double share = (pieces[i] - pieces[i - 1]) / pieces.back();
-      const int cells = std::max(kLeastCells, static_cast<int>(std::ceil(kCells * share)));
+      const int cells = std::max(kMinCells, static_cast<int>(std::ceil(kCells * share)));
       const double step = (pieces[i] - pieces[i - 1]) / cells;
       for (int c = 0; c < cells; ++c) {
         const double from = pieces[i - 1] + c * step;
@@ -60,7 +60,7 @@ class MagnitudeTable {
 
  private:
   static constexpr int kCells = 256;  // the table stays in the innermost cache
-  static constexpr int kLeastCells = 16;
+  static constexpr int kMinCells = 16;
   static constexpr double kTiny = std::numeric_limits<double>::min();  // for 0 / 0
   struct Cell {
     double from, width, before, per_mass;  ///< before: integral from 0 to it

@@ -31,8 +31,8 @@ const Shape& shape_of(FilterKind kind) {
 
 /// What of a text an error quotes.
 std::string_view quoted(std::string_view text) {
-  constexpr std::size_t kMostQuoted = 64;
-  return text.substr(0, kMostQuoted);
+  constexpr std::size_t kMaxQuoted = 64;
+  return text.substr(0, kMaxQuoted);
 }
 
 Result<double> number(std::string_view whole, std::string_view text, const Shape& shape) {
@@ -116,15 +116,13 @@ Result<PixelFilter> PixelFilter::parse(std::string_view text) {
   }
   std::vector<double> given;
   for (const std::string_view radius : radii) {
-    const auto value = number(text, radius, *shape);
-    if (!value) return value.error();
-    given.push_back(*value);
+    SPECTILE_ASSIGN(const auto value, number(text, radius, *shape));
+    given.push_back(value);
   }
   if (given.size() == 1) given.push_back(given[0]);
   for (std::size_t i = 2; i < parts.size(); ++i) {
-    const auto value = number(text, parts[i], *shape);
-    if (!value) return value.error();
-    given.push_back(*value);
+    SPECTILE_ASSIGN(const auto value, number(text, parts[i], *shape));
+    given.push_back(value);
   }
   PixelFilter wanted = defaults(shape->kind);
   if (!radii.empty()) {

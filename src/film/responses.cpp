@@ -44,24 +44,20 @@ Result<FloatBuffer> copy_of(const float* values, std::size_t count) {
 
 Result<FloatBuffer> observer_table(Observer observer, const FilmOptions& o) {
   if (o.input == FilmInput::kWavelengths) {
-    const auto curves = ResponseCurves::of_observer(observer);
-    if (!curves) return curves.error();
-    return rows_of(*curves);
+    SPECTILE_ASSIGN(const auto curves, ResponseCurves::of_observer(observer));
+    return rows_of(curves);
   }
-  const auto projector = Projector::emissive(o.bands, observer);
-  if (!projector) return projector.error();
-  return copy_of(projector->float_weights(), film_response_floats(o));
+  SPECTILE_ASSIGN(const auto projector, Projector::emissive(o.bands, observer));
+  return copy_of(projector.float_weights(), film_response_floats(o));
 }
 
 Result<FloatBuffer> sensor_table(const Sensor& sensor, const FilmOptions& o) {
   if (o.input == FilmInput::kWavelengths) {
-    const auto curves = sensor.response_curves();
-    if (!curves) return curves.error();
-    return rows_of(*curves);
+    SPECTILE_ASSIGN(const auto curves, sensor.response_curves());
+    return rows_of(curves);
   }
-  const auto projector = SensorProjector::create(sensor, o.bands);
-  if (!projector) return projector.error();
-  return copy_of(projector->float_weights(), film_response_floats(o));
+  SPECTILE_ASSIGN(const auto projector, SensorProjector::create(sensor, o.bands));
+  return copy_of(projector.float_weights(), film_response_floats(o));
 }
 
 std::string window_text(const PixelWindow& w) {

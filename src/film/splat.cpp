@@ -75,9 +75,7 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
   const auto columns = static_cast<std::size_t>(s.along_x.most_pixels);
   const auto rows = static_cast<std::size_t>(s.along_y.most_pixels);
   if (scratch.profiles.size() < (columns + rows) * kPart) {
-    auto memory = FloatBuffer::create((columns + rows) * kPart);
-    if (!memory) return memory.error();
-    scratch.profiles = *std::move(memory);
+    SPECTILE_ASSIGN(scratch.profiles, FloatBuffer::create((columns + rows) * kPart));
     std::fill_n(scratch.profiles.data(), scratch.profiles.size(), 0.0F);
   }
   std::array<int, kPart> first_x{};

@@ -18,7 +18,7 @@ using kernels::kFilmTilePixels;
 static_assert(kFilmTile == 1 << kernels::kFilmTileLog2);
 
 constexpr int kMaxSide = 1 << 18;
-constexpr std::size_t kMostPixels = std::size_t{1} << 31;  // an address is 32 bits, with a sign
+constexpr std::size_t kMaxPixels = std::size_t{1} << 31;  // an address is 32 bits, with a sign
 constexpr int kLowestRange = -32;
 constexpr int kHighestRange = 96;
 constexpr int kLowestWeightRange = -16;
@@ -127,7 +127,7 @@ std::int64_t* Film::State::touch(std::size_t tile) noexcept {
 namespace {
 
 // A quarter of what a limb holds: far beyond 2^31 contributions at the range's end, and far from its end.
-constexpr std::int64_t kMostCoarse = std::int64_t{1} << 62;
+constexpr std::int64_t kMaxCoarse = std::int64_t{1} << 62;
 
 }  // namespace
 
@@ -139,7 +139,7 @@ void Film::State::settle(std::size_t tile) noexcept {
   const auto settle_four = [&](std::int64_t* at) {
     for (std::size_t c = 0; c < 4; ++c) {
       film_carry(at[c], at[4 + c]);
-      fits = fits && at[c] <= kMostCoarse && at[c] >= -kMostCoarse;
+      fits = fits && at[c] <= kMaxCoarse && at[c] >= -kMaxCoarse;
     }
   };
   for (std::size_t q = 0; q < layout.quads * kFilmTilePixels; ++q) settle_four(limbs + 8 * q);
@@ -148,7 +148,7 @@ void Film::State::settle(std::size_t tile) noexcept {
     for (std::size_t b = 0; b < layout.bands * kFilmTilePixels; ++b) {
       for (std::size_t c = 0; c < 2; ++c) {
         film_carry(spectrum[4 * b + c], spectrum[4 * b + 2 + c]);
-        fits = fits && spectrum[4 * b + c] <= kMostCoarse && spectrum[4 * b + c] >= -kMostCoarse;
+        fits = fits && spectrum[4 * b + c] <= kMaxCoarse && spectrum[4 * b + c] >= -kMaxCoarse;
       }
     }
   } else {
@@ -161,7 +161,7 @@ void Film::State::settle(std::size_t tile) noexcept {
       for (std::size_t k = 3; k > 0; --k) film_carry(m[k - 1], m[k]);
       film_carry(m[5], m[7]);
       film_carry(m[4], m[5]);
-      for (const std::int64_t v : {m[0], m[4]}) fits = fits && v <= kMostCoarse && v >= -kMostCoarse;
+      for (const std::int64_t v : {m[0], m[4]}) fits = fits && v <= kMaxCoarse && v >= -kMaxCoarse;
     }
   }
   if (!fits) overflown = true;
@@ -203,7 +203,7 @@ Result<std::unique_ptr<FilmAccess::State>> prepare_film(const FilmOptions& optio
     SPECTILE_TRY(make_film_profile(s.along_y, f.radius_y(), [&](double d) { return f.along_y(d); }));
   }
   const std::size_t tiles = static_cast<std::size_t>(s.tiles_x) * static_cast<std::size_t>(s.tiles_y);
-  if (tiles * kFilmTilePixels > kMostPixels) {
+  if (tiles * kFilmTilePixels > kMaxPixels) {
     return make_error(ErrorCode::kBadArgument, "a window of {} x {} pixels holds more than 2^31 in its tiles",
                       s.window.width(), s.window.height());
   }

@@ -11,8 +11,8 @@ namespace spectile {
 namespace {
 
 /// A profile is met within this of its height, or as near as the longest table comes.
-constexpr std::int32_t kLeastIntervals = 2048;
-constexpr std::int32_t kMostIntervals = 65536;
+constexpr std::int32_t kMinIntervals = 2048;
+constexpr std::int32_t kMaxIntervals = 65536;
 constexpr double kProfileError = 5e-7;
 
 }  // namespace
@@ -41,9 +41,7 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
     return make_error(ErrorCode::kBadArgument, "bands {} have edges that float cannot tell apart",
                       s.options.bands.description());
   }
-  auto index = index_knots(edges);
-  if (!index) return index.error();
-  s.bucket_index = *std::move(index);
+  SPECTILE_ASSIGN(s.bucket_index, index_knots(edges));
   s.buckets = {s.bucket_index.knots.data(),
                s.bucket_bands.data(),
                static_cast<std::int32_t>(edges.size()),
@@ -56,9 +54,9 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
 
 Result<void> make_film_profile(FilmProfile& out, double radius, const std::function<double(double)>& at) {
   // The intervals are halved until the straight lines between them are near enough.
-  std::int32_t intervals = kLeastIntervals;
+  std::int32_t intervals = kMinIntervals;
   double peak = 0;
-  for (double worst = 1; worst > kProfileError && intervals <= kMostIntervals; intervals *= 2) {
+  for (double worst = 1; worst > kProfileError && intervals <= kMaxIntervals; intervals *= 2) {
     const double step = radius / intervals;
     worst = 0;
     for (std::int32_t i = 0; i < intervals; ++i) {
@@ -78,9 +76,7 @@ Result<void> make_film_profile(FilmProfile& out, double radius, const std::funct
         "largest there",
         peak);
   }
-  auto memory = FloatBuffer::create(2 * static_cast<std::size_t>(intervals));
-  if (!memory) return memory.error();
-  out.pairs = *std::move(memory);
+  SPECTILE_ASSIGN(out.pairs, FloatBuffer::create(2 * static_cast<std::size_t>(intervals)));
   const double step = radius / intervals;
   for (std::int32_t i = 0; i < intervals; ++i) {
     const double here = at(i * step);

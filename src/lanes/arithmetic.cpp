@@ -16,17 +16,16 @@ using kernels::KernelTable;
 /// Checks `inputs` against `out`, then runs kernel(table, offset, floats) tile by tile.
 template <std::size_t N, class Kernel>
 Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const SampledSpectraSpan& out,
-                          const Execution& how, Kernel kernel) {
+                          const Execution& execution, Kernel kernel) {
   SPECTILE_TRY(shape::aligned(out.data));
   for (const SampledSpectraView& input : inputs) {
     SPECTILE_TRY(shape::same(input, out));
     SPECTILE_TRY(shape::aligned(input.data));
   }
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t block_floats = out.bands.count() * kLanesPerBlock;
-  tiles::for_blocks(blocks_for(out.lanes), how, [&](std::size_t first, std::size_t count) {
-    kernel(**table, first * block_floats, count * block_floats);
+  tiles::for_blocks(blocks_for(out.lanes), execution, [&](std::size_t first, std::size_t count) {
+    kernel(*table, first * block_floats, count * block_floats);
   });
   return {};
 }
@@ -35,43 +34,41 @@ using Binary = void (*KernelTable::*)(float*, const float*, const float*, std::s
 using Unary = void (*KernelTable::*)(float*, const float*, std::size_t) noexcept;
 
 Result<void> binary(Binary which, const SampledSpectraView& a, const SampledSpectraView& b,
-                    const SampledSpectraSpan& out, const Execution& how) {
-  return element_wise<2>({a, b}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+                    const SampledSpectraSpan& out, const Execution& execution) {
+  return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     (k.*which)(out.data + at, a.data + at, b.data + at, n);
   });
 }
 
 Result<void> unary(Unary which, const SampledSpectraView& a, const SampledSpectraSpan& out,
-                   const Execution& how) {
-  return element_wise<1>({a}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+                   const Execution& execution) {
+  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     (k.*which)(out.data + at, a.data + at, n);
   });
 }
 
 /// Runs kernel(table, first block, blocks, samples) over the lanes of `a` into `out`.
 template <class Kernel>
-Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const Execution& how,
+Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const Execution& execution,
                       Kernel kernel) {
   SPECTILE_TRY(shape::same_lanes(a.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(out.data));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t block_floats = a.bands.count() * kLanesPerBlock;
-  tiles::for_blocks(a.blocks(), how, [&](std::size_t first, std::size_t count) {
-    kernel(**table, out.data + first * kLanesPerBlock, a.data + first * block_floats, count);
+  tiles::for_blocks(a.blocks(), execution, [&](std::size_t first, std::size_t count) {
+    kernel(*table, out.data + first * kLanesPerBlock, a.data + first * block_floats, count);
   });
   return {};
 }
 
 /// Runs kernel(table, words, first block, blocks) for a mask over `lanes`, and clears the padding's bits.
 template <class Kernel>
-Result<LaneMask> mask_of(std::size_t lanes, const Execution& how, Kernel kernel) {
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+Result<LaneMask> mask_of(std::size_t lanes, const Execution& execution, Kernel kernel) {
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   LaneMask mask(blocks_for(lanes));
-  tiles::for_blocks(mask.size(), how, [&](std::size_t first, std::size_t count) {
-    kernel(**table, mask.data() + first, first, count);
+  tiles::for_blocks(mask.size(), execution, [&](std::size_t first, std::size_t count) {
+    kernel(*table, mask.data() + first, first, count);
   });
   if (const std::size_t rest = lanes % kLanesPerBlock; rest != 0)
     mask.back() &= (std::uint64_t{1} << rest) - 1;
@@ -80,139 +77,142 @@ Result<LaneMask> mask_of(std::size_t lanes, const Execution& how, Kernel kernel)
 
 }  // namespace
 
-Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out, const Execution& how) {
-  return binary(&KernelTable::add, a, b, out, how);
+Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
+                 const Execution& execution) {
+  return binary(&KernelTable::add, a, b, out, execution);
 }
 
 Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                      const Execution& how) {
-  return binary(&KernelTable::subtract, a, b, out, how);
+                      const Execution& execution) {
+  return binary(&KernelTable::subtract, a, b, out, execution);
 }
 
 Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                      const Execution& how) {
-  return binary(&KernelTable::multiply, a, b, out, how);
+                      const Execution& execution) {
+  return binary(&KernelTable::multiply, a, b, out, execution);
 }
 
 Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                    const Execution& how) {
-  return binary(&KernelTable::divide, a, b, out, how);
+                    const Execution& execution) {
+  return binary(&KernelTable::divide, a, b, out, execution);
 }
 
 Result<void> divide_or_zero(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                            const Execution& how) {
-  return binary(&KernelTable::divide_or_zero, a, b, out, how);
+                            const Execution& execution) {
+  return binary(&KernelTable::divide_or_zero, a, b, out, execution);
 }
 
-Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Execution& how) {
-  return unary(&KernelTable::negate, a, out, how);
+Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
+  return unary(&KernelTable::negate, a, out, execution);
 }
 
-Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, const Execution& how) {
-  return element_wise<1>({a}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, const Execution& execution) {
+  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.scale(out.data + at, a.data + at, factor, n);
   });
 }
 
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
-                          SampledSpectraSpan out, const Execution& how) {
-  return element_wise<3>({a, b, c}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+                          SampledSpectraSpan out, const Execution& execution) {
+  return element_wise<3>({a, b, c}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.multiply_add(out.data + at, a.data + at, b.data + at, c.data + at, n);
   });
 }
 
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
-                  const Execution& how) {
-  return element_wise<2>({a, b}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+                  const Execution& execution) {
+  return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.lerp(out.data + at, a.data + at, b.data + at, t, n);
   });
 }
 
-Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& how) {
-  return unary(&KernelTable::sqrt, a, out, how);
+Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
+  return unary(&KernelTable::sqrt, a, out, execution);
 }
 
-Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& how) {
-  return unary(&KernelTable::exp, a, out, how);
+Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
+  return unary(&KernelTable::exp, a, out, execution);
 }
 
-Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& how) {
-  return element_wise<1>({a}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& execution) {
+  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.pow(out.data + at, a.data + at, exponent, n);
   });
 }
 
 Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out,
-                   const Execution& how) {
+                   const Execution& execution) {
   if (!(lowest <= highest)) {
     return make_error(ErrorCode::kBadArgument, "cannot limit samples to between {} and {}", lowest, highest);
   }
-  return element_wise<1>({a}, out, how, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     k.clamp(out.data + at, a.data + at, lowest, highest, n);
   });
 }
 
-Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& how) {
-  return clamp(a, 0.0F, std::numeric_limits<float>::infinity(), out, how);
+Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
+  return clamp(a, 0.0F, std::numeric_limits<float>::infinity(), out, execution);
 }
 
-Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& how) {
-  return per_lane(a, out, how, [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
-    k.minimum(dst, in, a.bands.count(), blocks);
-  });
+Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execution) {
+  return per_lane(a, out, execution,
+                  [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
+                    k.minimum(dst, in, a.bands.count(), blocks);
+                  });
 }
 
-Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& how) {
-  return per_lane(a, out, how, [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
-    k.maximum(dst, in, a.bands.count(), blocks);
-  });
+Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execution) {
+  return per_lane(a, out, execution,
+                  [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
+                    k.maximum(dst, in, a.bands.count(), blocks);
+                  });
 }
 
-Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& how) {
+Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution) {
   double total = 0;
   for (const Band& band : a.bands.list()) total += band.width_nm();
   std::vector<float> weights;
   for (const Band& band : a.bands.list()) weights.push_back(static_cast<float>(band.width_nm() / total));
-  return per_lane(a, out, how, [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
-    k.weighted_sum(dst, in, weights.data(), weights.size(), blocks);
-  });
+  return per_lane(a, out, execution,
+                  [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
+                    k.weighted_sum(dst, in, weights.data(), weights.size(), blocks);
+                  });
 }
 
-Result<LaneMask> is_black(SampledSpectraView a, const Execution& how) {
+Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how,
+  return mask_of(a.lanes, execution,
                  [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
                    k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
                  });
 }
 
-Result<LaneMask> has_nan(SampledSpectraView a, const Execution& how) {
+Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how,
+  return mask_of(a.lanes, execution,
                  [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
                    k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
                  });
 }
 
-Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& how) {
+Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution) {
   SPECTILE_TRY(shape::same(a, b));
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(b.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, how,
+  return mask_of(a.lanes, execution,
                  [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
                    const std::size_t at = first * bands * kLanesPerBlock;
                    k.equal_mask(mask, a.data + at, b.data + at, bands, count);
                  });
 }
 
-Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& how) {
-  const auto mask = equal_lanes(a, b, how);
-  if (!mask) return mask.error();
+Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& execution) {
+  SPECTILE_ASSIGN(const auto mask, equal_lanes(a, b, execution));
   std::size_t lanes = 0;
-  for (const std::uint64_t word : *mask) lanes += static_cast<std::size_t>(std::popcount(word));
+  for (const std::uint64_t word : mask) lanes += static_cast<std::size_t>(std::popcount(word));
   return lanes == a.lanes;
 }
 

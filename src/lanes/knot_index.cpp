@@ -10,13 +10,13 @@ namespace {
 
 /// Buckets a knot: with four, most buckets hold one knot at most, and the search takes one step.
 constexpr std::size_t kBucketsPerKnot = 4;
-constexpr std::size_t kMostBuckets = 4096;
+constexpr std::size_t kMaxBuckets = 4096;
 
 }  // namespace
 
 Result<KnotIndex> index_knots(std::span<const float> knots) {
   KnotIndex out;
-  const std::size_t buckets = std::clamp<std::size_t>(kBucketsPerKnot * knots.size(), 1, kMostBuckets);
+  const std::size_t buckets = std::clamp<std::size_t>(kBucketsPerKnot * knots.size(), 1, kMaxBuckets);
   const float range = knots.back() - knots.front();
   // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All
   // are in the first one where they are too close together for more.
@@ -36,9 +36,7 @@ Result<KnotIndex> index_knots(std::span<const float> knots) {
     out.start.push_back(static_cast<std::int32_t>(before));
   }
   while ((std::size_t{1} << out.halvings) <= most) ++out.halvings;
-  auto memory = FloatBuffer::create(knots.size() + (std::size_t{1} << out.halvings));
-  if (!memory) return memory.error();
-  out.knots = *std::move(memory);
+  SPECTILE_ASSIGN(out.knots, FloatBuffer::create(knots.size() + (std::size_t{1} << out.halvings)));
   std::fill_n(out.knots.data(), out.knots.size(), std::numeric_limits<float>::infinity());
   std::copy(knots.begin(), knots.end(), out.knots.data());
   return out;

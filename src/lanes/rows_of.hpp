@@ -16,7 +16,7 @@ class RowsOf {
   Float* const* data() const noexcept { return rows_.data(); }
 
  private:
-  std::array<Float*, WavelengthLanes::kMostWavelengths> rows_{};
+  std::array<Float*, WavelengthLanes::kMaxWavelengths> rows_{};
 };
 
 }  // namespace spectile::rows

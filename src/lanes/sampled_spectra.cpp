@@ -39,14 +39,13 @@ Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t
                       bands.count());
   }
   const std::size_t blocks = blocks_for(lanes);
-  auto buffer = FloatBuffer::create(blocks * bands.count() * kLanesPerBlock);
-  if (!buffer) return buffer.error();
-  float* out = buffer->data();
+  SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(blocks * bands.count() * kLanesPerBlock));
+  float* out = buffer.data();
   for (std::size_t block = 0; block < blocks; ++block) {
     for (const float value : values) out = std::fill_n(out, kLanesPerBlock, value);
   }
   SampledSpectra spectra;
-  spectra.buffer_ = *std::move(buffer);
+  spectra.buffer_ = std::move(buffer);
   spectra.lanes_ = lanes;
   spectra.bands_ = bands;
   return spectra;
@@ -54,10 +53,9 @@ Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t
 
 Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
   if (too_many(lanes, 1)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
-  auto buffer = zeroed(blocks_for(lanes) * kLanesPerBlock);
-  if (!buffer) return buffer.error();
+  SPECTILE_ASSIGN(auto buffer, zeroed(blocks_for(lanes) * kLanesPerBlock));
   ScalarLanes out;
-  out.buffer_ = *std::move(buffer);
+  out.buffer_ = std::move(buffer);
   out.lanes_ = lanes;
   return out;
 }
@@ -65,10 +63,9 @@ Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
 Result<ColorLanes> ColorLanes::create(std::size_t lanes) {
   if (too_many(lanes, 3)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
   const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
-  auto buffer = zeroed(3 * stride);
-  if (!buffer) return buffer.error();
+  SPECTILE_ASSIGN(auto buffer, zeroed(3 * stride));
   ColorLanes out;
-  out.buffer_ = *std::move(buffer);
+  out.buffer_ = std::move(buffer);
   out.lanes_ = lanes;
   out.stride_ = stride;
   return out;

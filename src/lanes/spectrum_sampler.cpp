@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <spectile/radiometry/radiometry.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/radiometry/radiometry.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -52,13 +52,11 @@ Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
   std::vector<float> knots;
   knots.reserve(n);
   for (const double nm : w) knots.push_back(static_cast<float>(nm));
-  auto index = index_knots(knots);
-  if (!index) return index.error();
-  auto pairs = FloatBuffer::create(2 * n);
-  if (!pairs) return pairs.error();
+  SPECTILE_ASSIGN(auto index, index_knots(knots));
+  SPECTILE_ASSIGN(auto pairs, FloatBuffer::create(2 * n));
   Knots out;
-  out.index = *std::move(index);
-  out.pairs = *std::move(pairs);
+  out.index = std::move(index);
+  out.pairs = std::move(pairs);
   for (std::size_t i = 0; i < n; ++i) {
     // Between the knots as they are in float: two that became one are a step.
     const double length = i + 1 < n ? static_cast<double>(knots[i + 1]) - static_cast<double>(knots[i]) : 0;
@@ -84,10 +82,9 @@ struct Even {
 
 Result<Even> even_of(const DenselySampledSpectrum& spectrum) {
   const auto v = spectrum.values();
-  auto pairs = FloatBuffer::create(2 * (v.size() - 1));
-  if (!pairs) return pairs.error();
+  SPECTILE_ASSIGN(auto pairs, FloatBuffer::create(2 * (v.size() - 1)));
   Even out;
-  out.pairs = *std::move(pairs);
+  out.pairs = std::move(pairs);
   for (std::size_t i = 0; i + 1 < v.size(); ++i) {
     if (!fits_float(v[i]) || !fits_float(v[i + 1]) || !fits_float(v[i + 1] - v[i])) {
       return make_error(ErrorCode::kBadArgument, "the sample {} at {} nm is beyond the range of float", v[i],
@@ -127,9 +124,7 @@ struct SpectrumSampler::Tables {
   Result<void> set(const PiecewiseLinearSpectrum& s) { return set_knots(s.measured(), false, Kind::kKnots); }
   Result<void> set(const DenselySampledSpectrum& s) {
     kind = Kind::kEven;
-    auto made = even_of(s);
-    if (!made) return made.error();
-    even = *std::move(made);
+    SPECTILE_ASSIGN(even, even_of(s));
     return {};
   }
   Result<void> set(const BlackbodySpectrum& s) {
@@ -172,9 +167,7 @@ struct SpectrumSampler::Tables {
   }
   Result<void> set_knots(const MeasuredSpectrum& samples, bool held, Kind of) {
     kind = of;
-    auto made = knots_of(samples, held);
-    if (!made) return made.error();
-    knots = *std::move(made);
+    SPECTILE_ASSIGN(knots, knots_of(samples, held));
     return {};
   }
 
@@ -223,7 +216,7 @@ Result<SpectrumSampler> SpectrumSampler::create(const Spectrum& spectrum) {
 }
 
 Result<void> SpectrumSampler::sample(WavelengthView lambda_nm, WavelengthSpan values,
-                                     const Execution& how) const {
+                                     const Execution& execution) const {
   SPECTILE_TRY(shape::same_lanes(lambda_nm.lanes, values.lanes));
   if (lambda_nm.count != values.count) {
     return make_error(ErrorCode::kSizeMismatch, "one batch has {} wavelengths a lane, the other {}",
@@ -231,22 +224,20 @@ Result<void> SpectrumSampler::sample(WavelengthView lambda_nm, WavelengthSpan va
   }
   SPECTILE_TRY(shape::aligned(lambda_nm.data));
   SPECTILE_TRY(shape::aligned(values.data));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
-  tiles::for_blocks(blocks_for(values.lanes), how, [&](std::size_t first, std::size_t count) {
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
+  tiles::for_blocks(blocks_for(values.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     for (std::size_t k = 0; k < values.count; ++k) {
-      tables_->row(**table, lambda_nm.row(k) + at, values.row(k) + at, count * kLanesPerBlock);
+      tables_->row(*table, lambda_nm.row(k) + at, values.row(k) + at, count * kLanesPerBlock);
     }
   });
   return {};
 }
 
 Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
-                    const Execution& how) {
-  const auto sampler = SpectrumSampler::create(spectrum);
-  if (!sampler) return sampler.error();
-  return sampler->sample(lambda_nm, values, how);
+                    const Execution& execution) {
+  SPECTILE_ASSIGN(const auto sampler, SpectrumSampler::create(spectrum));
+  return sampler.sample(lambda_nm, values, execution);
 }
 
 }  // namespace spectile

@@ -35,12 +35,12 @@ class Allowance {
 
 }  // namespace
 
-void for_blocks(std::size_t blocks, const Execution& how,
+void for_blocks(std::size_t blocks, const Execution& execution,
                 const std::function<void(std::size_t first, std::size_t count)>& work) {
-  const std::size_t tile = std::max<std::size_t>(1, blocks_for(how.tile_lanes));
+  const std::size_t tile = std::max<std::size_t>(1, blocks_for(execution.tile_lanes));
   const std::size_t tiles = (blocks + tile - 1) / tile;
   const auto run = [&](std::size_t t) { work(t * tile, std::min(tile, blocks - t * tile)); };
-  const int threads = thread_count(how.threads);
+  const int threads = thread_count(execution.threads);
   if (threads == 1 || tiles <= 1) {
     for (std::size_t t = 0; t < tiles; ++t) run(t);
     return;

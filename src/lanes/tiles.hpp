@@ -11,7 +11,7 @@ namespace spectile::tiles {
 int thread_count(int requested);
 
 /// Calls work(first_block, count) for tiles that cover [0, blocks), in parallel. `work` must not throw.
-void for_blocks(std::size_t blocks, const Execution& how,
+void for_blocks(std::size_t blocks, const Execution& execution,
                 const std::function<void(std::size_t first, std::size_t count)>& work);
 
 /// Runs a pipeline of items: `produce(item)` in order, one at a time, false at the end; `transform(item)` in

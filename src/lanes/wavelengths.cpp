@@ -46,8 +46,8 @@ Result<void> same_shape(const WavelengthView& a, const WavelengthView& b) {
 }  // namespace
 
 Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t count) {
-  if (count == 0 || count > kMostWavelengths) {
-    return make_error(ErrorCode::kBadArgument, "a lane takes 1 to {} wavelengths, not {}", kMostWavelengths,
+  if (count == 0 || count > kMaxWavelengths) {
+    return make_error(ErrorCode::kBadArgument, "a lane takes 1 to {} wavelengths, not {}", kMaxWavelengths,
                       count);
   }
   const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
@@ -55,10 +55,9 @@ Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t c
     return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} wavelengths do not fit in memory", lanes,
                       count);
   }
-  auto buffer = FloatBuffer::create(std::max<std::size_t>(1, stride * count));
-  if (!buffer) return buffer.error();
+  SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(std::max<std::size_t>(1, stride * count)));
   WavelengthLanes out;
-  out.buffer_ = *std::move(buffer);
+  out.buffer_ = std::move(buffer);
   std::fill_n(out.buffer_.data(), out.buffer_.size(), 0.0F);
   out.lanes_ = lanes;
   out.count_ = count;
@@ -67,34 +66,31 @@ Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t c
 }
 
 Result<SampledWavelengths> SampledWavelengths::create(std::size_t lanes, std::size_t count) {
-  auto lambda = WavelengthLanes::create(lanes, count);
-  if (!lambda) return lambda.error();
-  auto density = WavelengthLanes::create(lanes, count);
-  if (!density) return density.error();
-  return SampledWavelengths{*std::move(lambda), *std::move(density)};
+  SPECTILE_ASSIGN(auto lambda, WavelengthLanes::create(lanes, count));
+  SPECTILE_ASSIGN(auto density, WavelengthLanes::create(lanes, count));
+  return SampledWavelengths{std::move(lambda), std::move(density)};
 }
 
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
-                                double first_nm, double last_nm, const Execution& how) {
+                                double first_nm, double last_nm, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
   SPECTILE_TRY(shape::aligned(u.data));
   if (!(first_nm >= 1e-6 && last_nm - first_nm >= 1e-6 && last_nm <= 1e9)) {
     return make_error(ErrorCode::kBadArgument, "wavelengths cannot be drawn from {} to {} nm", first_nm,
                       last_nm);
   }
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const WavelengthDensity density = density_over(first_nm, last_nm);
-  constexpr double kLeastShare = 1e-6;  // less would be lost in the differences of the inverse
-  if (sampling == WavelengthSampling::kVisible && !(density.by > 2 * kLeastShare)) {
+  constexpr double kMinShare = 1e-6;  // less would be lost in the differences of the inverse
+  if (sampling == WavelengthSampling::kVisible && !(density.by > 2 * kMinShare)) {
     return make_error(ErrorCode::kBadArgument, "{} to {} nm hold next to nothing of the eye's sensitivity",
                       first_nm, last_nm);
   }
   const auto kernel =
-      sampling == WavelengthSampling::kUniform ? (*table)->even_wavelengths : (*table)->visible_wavelengths;
+      sampling == WavelengthSampling::kUniform ? table->even_wavelengths : table->visible_wavelengths;
   const WavelengthSpan lambda = out.lambda_nm.span();
   const WavelengthSpan pdf = out.density.span();
-  tiles::for_blocks(blocks_for(u.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(u.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const rows::RowsOf<float> to(lambda, at);
     const rows::RowsOf<float> densities(pdf, at);
@@ -119,17 +115,15 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<cons
 }
 
 Result<ResponseCurves> ResponseCurves::of_observer(Observer observer) {
-  const auto sensor = Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964");
-  if (!sensor) return sensor.error();
-  return sensor->response_curves();
+  SPECTILE_ASSIGN(const auto sensor, Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964"));
+  return sensor.response_curves();
 }
 
 Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& curves,
                                               const std::array<double, 3>& factors) {
-  auto buffer = FloatBuffer::create(std::size_t{3} * 2 * kIntervals);
-  if (!buffer) return buffer.error();
+  SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(std::size_t{3} * 2 * kIntervals));
   for (std::size_t c = 0; c < 3; ++c) {
-    float* const pairs = buffer->data() + c * 2 * kIntervals;
+    float* const pairs = buffer.data() + c * 2 * kIntervals;
     for (std::int32_t i = 0; i < kIntervals; ++i) {
       const double value = factors[c] * curves[c](kFirstNm + i);
       const double next = factors[c] * curves[c](kFirstNm + i + 1);
@@ -142,12 +136,12 @@ Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& cur
     }
   }
   ResponseCurves out;
-  out.table_ = std::make_shared<const FloatBuffer>(*std::move(buffer));
+  out.table_ = std::make_shared<const FloatBuffer>(std::move(buffer));
   return out;
 }
 
 Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
-                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& how) {
+                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& execution) {
   const WavelengthView lambda = wavelengths.lambda_nm.view();
   const WavelengthView density = wavelengths.density.view();
   SPECTILE_TRY(same_shape(radiance, lambda));
@@ -155,21 +149,20 @@ Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
   SPECTILE_TRY(shape::same_lanes(radiance.lanes, color.lanes));
   SPECTILE_TRY(shape::aligned(radiance.data));
   for (const float* plane : color.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   EvenTable tables[3];
   for (std::size_t c = 0; c < 3; ++c) {
     tables[c] = {curves.table() + c * 2 * kIntervals, static_cast<float>(kFirstNm), 1.0F, kIntervals};
   }
   const float factor = 1.0F / static_cast<float>(radiance.count);
-  tiles::for_blocks(blocks_for(radiance.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(radiance.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const rows::RowsOf<const float> values(radiance, at);
     const rows::RowsOf<const float> places(lambda, at);
     const rows::RowsOf<const float> densities(density, at);
     float* const to[3] = {color.c[0] + at, color.c[1] + at, color.c[2] + at};
-    (*table)->project_wavelengths(to, values.data(), places.data(), densities.data(), tables, factor,
-                                  radiance.count, count * kLanesPerBlock);
+    table->project_wavelengths(to, values.data(), places.data(), densities.data(), tables, factor,
+                               radiance.count, count * kLanesPerBlock);
   });
   return {};
 }

@@ -1,8 +1,9 @@
 // Errors of plans and of even bands, and what a plan makes of samples.
+#include "src/base/errors.hpp"
+
 #include <cmath>
 #include <spectile/plan/plan.hpp>
 
-#include "src/base/errors.hpp"
 #include "src/planner/problem.hpp"
 
 namespace spectile {
@@ -47,8 +48,7 @@ Result<PlanError> plan_error(const Plan& plan, const PlannedLight& light,
   if (index == plan.lights.size()) {
     return make_error(ErrorCode::kBadArgument, "the plan has no light {}", light.name);
   }
-  const auto integrals = plan::integrals(light, plan.observer);
-  if (!integrals) return integrals.error();
+  SPECTILE_ASSIGN(const auto integrals, plan::integrals(light, plan.observer));
   Numbers numbers;
   const auto count = static_cast<Eigen::Index>(plan.count());
   numbers.lambda = Eigen::Map<const plan::Vector>(plan.wavelengths_nm.data(), count);
@@ -63,22 +63,19 @@ Result<PlanError> plan_error(const Plan& plan, const PlannedLight& light,
   for (std::size_t k = 0; k < plan.bands.size(); ++k) {
     numbers.half[static_cast<Eigen::Index>(k)] = plan.bands[k].width_nm() / 2;
   }
-  auto table = plan::tabulate(reflectances);
-  if (!table) return table.error();
-  const SampleSet samples = judged_samples(*std::move(table), bounces, kJudgedProducts);
-  return plan::summary(plan::differences(plan::truth_of(samples, *integrals),
-                                         plan::predict(samples, numbers, 0), plan::white_of(*integrals)));
+  SPECTILE_ASSIGN(auto table, plan::tabulate(reflectances));
+  const SampleSet samples = judged_samples(std::move(table), bounces, kJudgedProducts);
+  return plan::summary(plan::differences(plan::truth_of(samples, integrals),
+                                         plan::predict(samples, numbers, 0), plan::white_of(integrals)));
 }
 
 Result<PlanError> even_bands_error(const Bands& bands, const PlannedLight& light,
                                    const std::vector<Spectrum>& reflectances, int bounces,
                                    Observer observer) {
-  const auto integrals = plan::integrals(light, observer);
-  if (!integrals) return integrals.error();
+  SPECTILE_ASSIGN(const auto integrals, plan::integrals(light, observer));
   PlannedLight equal = light;
   equal.spectrum = ConstantSpectrum(1);
-  const auto curves = plan::integrals(equal, observer);
-  if (!curves) return curves.error();
+  SPECTILE_ASSIGN(const auto curves, plan::integrals(equal, observer));
   // Averages over each band of reflectances, light and curves apart, as sampled spectra are multiplied.
   const auto count = static_cast<Eigen::Index>(bands.count());
   plan::Vector centres(count);
@@ -95,7 +92,7 @@ Result<PlanError> even_bands_error(const Bands& bands, const PlannedLight& light
   Numbers numbers;
   numbers.lambda = centres;
   numbers.half = halves;
-  numbers.sensor = plan::values_of(plan::sample_set(*curves), centres, halves).transpose();
+  numbers.sensor = plan::values_of(plan::sample_set(curves), centres, halves).transpose();
   numbers.emission = plan::values_of(plan::sample_set(std::move(emitted)), centres, halves).transpose();
   numbers.emission.col(0) = numbers.emission.col(0).cwiseProduct(2 * halves);
   const double sum = numbers.emission.col(0).dot(numbers.sensor.col(1));
@@ -103,11 +100,10 @@ Result<PlanError> even_bands_error(const Bands& bands, const PlannedLight& light
     return make_error(ErrorCode::kBadArgument, "the light {} has no luminance in these bands", light.name);
   }
   numbers.sensor /= sum;
-  auto table = plan::tabulate(reflectances);
-  if (!table) return table.error();
-  const SampleSet samples = judged_samples(*std::move(table), bounces, kJudgedProducts);
-  return plan::summary(plan::differences(plan::truth_of(samples, *integrals),
-                                         plan::predict(samples, numbers, 0), plan::white_of(*integrals)));
+  SPECTILE_ASSIGN(auto table, plan::tabulate(reflectances));
+  const SampleSet samples = judged_samples(std::move(table), bounces, kJudgedProducts);
+  return plan::summary(plan::differences(plan::truth_of(samples, integrals),
+                                         plan::predict(samples, numbers, 0), plan::white_of(integrals)));
 }
 
 }  // namespace spectile

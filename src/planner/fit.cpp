@@ -29,7 +29,7 @@ constexpr int kRounds = 6;
 constexpr int kTakingRounds = 4;
 
 /// Where all colours are met there is still something to divide by.
-constexpr double kLeastUnit = 1e-6;
+constexpr double kMinUnit = 1e-6;
 
 class Fit {
  public:
@@ -176,7 +176,7 @@ Numbers fit(Problem& problem, const std::vector<Start>& starts) {
   // What all are measured by.
   double unit = fits.front().mean_difference();
   for (const Fit& one : fits) unit = std::min(unit, one.mean_difference());
-  unit = std::max(unit, kLeastUnit);
+  unit = std::max(unit, kMinUnit);
   const auto race = [&](int steps, std::size_t left) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < fits.size(); ++i) order.emplace_back(fits[i].by_power(unit, steps), i);

@@ -18,10 +18,10 @@ using plan::Matrix;
 using plan::Numbers;
 using plan::SampleSet;
 
-constexpr std::size_t kFewestBands = 3;
-constexpr std::size_t kMostBands = 64;
-constexpr int kMostBounces = 4;
-constexpr std::size_t kFewestReflectances = 10;
+constexpr std::size_t kMinBands = 3;
+constexpr std::size_t kMaxBands = 64;
+constexpr int kMaxBounces = 4;
+constexpr std::size_t kMinReflectances = 10;
 /// Counts that are tried for an error asked for.
 constexpr std::size_t kCounts[] = {4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 24, 28, 32};
 
@@ -32,19 +32,19 @@ Result<void> check(const PlannerOptions& o) {
     if (names.insert(light.name).second) continue;
     return make_error(ErrorCode::kBadArgument, "two lights are called {}", light.name);
   }
-  if (o.reflectances.size() < kFewestReflectances) {
+  if (o.reflectances.size() < kMinReflectances) {
     return make_error(ErrorCode::kBadArgument, "a plan takes {} reflectances at least, not {}",
-                      kFewestReflectances, o.reflectances.size());
+                      kMinReflectances, o.reflectances.size());
   }
-  if (o.bounces < 1 || o.bounces > kMostBounces) {
-    return make_error(ErrorCode::kBadArgument, "{} bounces are not from 1 to {}", o.bounces, kMostBounces);
+  if (o.bounces < 1 || o.bounces > kMaxBounces) {
+    return make_error(ErrorCode::kBadArgument, "{} bounces are not from 1 to {}", o.bounces, kMaxBounces);
   }
   if (o.bands.has_value() == o.max_error.has_value()) {
     return make_error(ErrorCode::kBadArgument, "a plan takes either a number of bands or a largest error");
   }
-  if (o.bands && (*o.bands < kFewestBands || *o.bands > kMostBands)) {
-    return make_error(ErrorCode::kBadArgument, "{} bands are not from {} to {}", *o.bands, kFewestBands,
-                      kMostBands);
+  if (o.bands && (*o.bands < kMinBands || *o.bands > kMaxBands)) {
+    return make_error(ErrorCode::kBadArgument, "{} bands are not from {} to {}", *o.bands, kMinBands,
+                      kMaxBands);
   }
   if (o.max_error && !(*o.max_error > 0)) {
     return make_error(ErrorCode::kBadArgument, "a largest error of {} is not above 0", *o.max_error);
@@ -172,11 +172,10 @@ Result<void> compare_even(Plan& plan, const PlannerOptions& o) {
   const auto same = fmt::format("400:700:{}", 300.0 / static_cast<double>(plan.count()));
   for (const std::string& text :
        {same, std::string("400:700:10"), std::string("400:700:5"), std::string("380:780:5")}) {
-    const auto bands = Bands::parse(text);
-    if (!bands) return bands.error();
+    SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
     for (const PlannedLight& light : o.lights) {
       for (int b = 1; b <= o.bounces; ++b) {
-        const auto error = even_bands_error(*bands, light, o.reflectances, b, o.observer);
+        const auto error = even_bands_error(bands, light, o.reflectances, b, o.observer);
         // A light that is all beyond these bands; there is nothing to compare with.
         if (!error) continue;
         plan.even.push_back({text, {light.name, b, *error}});
@@ -215,14 +214,12 @@ Plan plan_of(const Numbers& n, const PlannerOptions& o, const Judged& judged) {
 
 Result<Plan> make(const PlannerOptions& o) {
   SPECTILE_TRY(check(o));
-  const auto tabulated = plan::tabulate(o.reflectances);
-  if (!tabulated) return tabulated.error();
-  const Matrix& table = *tabulated;
+  SPECTILE_ASSIGN(const auto tabulated, plan::tabulate(o.reflectances));
+  const Matrix& table = tabulated;
   std::vector<Matrix> integrals;
   for (const PlannedLight& light : o.lights) {
-    auto one = plan::integrals(light, o.observer);
-    if (!one) return one.error();
-    integrals.push_back(*std::move(one));
+    SPECTILE_ASSIGN(auto one, plan::integrals(light, o.observer));
+    integrals.push_back(std::move(one));
   }
   const auto finished = [&](std::size_t count, const Judged& judged) -> Result<Plan> {
     Plan plan = plan_of(fitted(table, o, integrals, count), o, judged);

@@ -65,15 +65,14 @@ Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances) {
 }
 
 Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
-  const auto sensor = Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964");
-  if (!sensor) return sensor.error();
+  SPECTILE_ASSIGN(const auto sensor, Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964"));
   Matrix out(kGrid, 3);
   for (Eigen::Index g = 0; g < kGrid; ++g) {
     const double nm = kFirstNm + static_cast<double>(g);
     const double emitted = light.spectrum(nm);
     for (Eigen::Index c = 0; c < 3; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      out(g, c) = sensor->factors()[k] * sensor->curves()[k](nm) * emitted;
+      out(g, c) = sensor.factors()[k] * sensor.curves()[k](nm) * emitted;
     }
   }
   const Eigen::Vector3d white = white_of(out);

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMostPoints = 1e9;
+constexpr double kMaxPoints = 1e9;
 
 bool finite(const Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -35,9 +35,9 @@ Result<Vector3> unit_normal(const char* whose, const Vector3& normal) {
 }
 
 Result<void> check_points(std::size_t points) {
-  if (points >= 1 && static_cast<double>(points) <= kMostPoints) return {};
+  if (points >= 1 && static_cast<double>(points) <= kMaxPoints) return {};
   return make_error(ErrorCode::kBadArgument, "{} points asked for; 1 to {:.0f} are possible", points,
-                    kMostPoints);
+                    kMaxPoints);
 }
 
 /// Cells a side of a square grid of at least that many cells.
@@ -74,10 +74,8 @@ struct SeenQuad {
 };
 
 Result<SeenDisk> seen(const DiskEmitter& emitter, const Receiver& receiver) {
-  const auto receiver_normal = unit_normal("the receiver's normal", receiver.normal);
-  if (!receiver_normal) return receiver_normal.error();
-  const auto normal = unit_normal("the disk's normal", emitter.normal);
-  if (!normal) return normal.error();
+  SPECTILE_ASSIGN(const auto receiver_normal, unit_normal("the receiver's normal", receiver.normal));
+  SPECTILE_ASSIGN(const auto normal, unit_normal("the disk's normal", emitter.normal));
   const Vector3 centre = emitter.centre_m - receiver.position_m;
   if (!finite(centre)) return not_finite("the disk's centre, from the receiver,", centre);
   if (!(emitter.radius_m >= 0) || !std::isfinite(emitter.radius_m)) {
@@ -85,24 +83,23 @@ Result<SeenDisk> seen(const DiskEmitter& emitter, const Receiver& receiver) {
                       emitter.radius_m);
   }
   const double scale = std::max(largest_of(centre), emitter.radius_m);
-  if (scale == 0) return SeenDisk{*receiver_normal, {}, *normal, 0};
-  return SeenDisk{*receiver_normal, centre / scale, *normal, emitter.radius_m / scale};
+  if (scale == 0) return SeenDisk{receiver_normal, {}, normal, 0};
+  return SeenDisk{receiver_normal, centre / scale, normal, emitter.radius_m / scale};
 }
 
 Result<SeenQuad> seen(const QuadEmitter& emitter, const Receiver& receiver) {
-  const auto receiver_normal = unit_normal("the receiver's normal", receiver.normal);
-  if (!receiver_normal) return receiver_normal.error();
+  SPECTILE_ASSIGN(const auto receiver_normal, unit_normal("the receiver's normal", receiver.normal));
   const Vector3 corner = emitter.corner_m - receiver.position_m;
   if (!finite(corner)) return not_finite("the parallelogram's corner, from the receiver,", corner);
   if (!finite(emitter.edge_u_m)) return not_finite("the parallelogram's first edge", emitter.edge_u_m);
   if (!finite(emitter.edge_v_m)) return not_finite("the parallelogram's second edge", emitter.edge_v_m);
   const double scale =
       std::max({largest_of(corner), largest_of(emitter.edge_u_m), largest_of(emitter.edge_v_m)});
-  if (scale == 0) return SeenQuad{*receiver_normal, {}, {}, {}, {}};
+  if (scale == 0) return SeenQuad{receiver_normal, {}, {}, {}, {}};
   const Vector3 u = emitter.edge_u_m / scale;
   const Vector3 v = emitter.edge_v_m / scale;
   // A product of unit vectors does not underflow for a small parallelogram far away.
-  return SeenQuad{*receiver_normal, corner / scale, u, v, normalized(cross(normalized(u), normalized(v)))};
+  return SeenQuad{receiver_normal, corner / scale, u, v, normalized(cross(normalized(u), normalized(v)))};
 }
 
 /// What a small area at `point` contributes for each unit of its area; the emitter's cosine is distance / d.
@@ -207,19 +204,18 @@ double of_polygon(std::span<const Vector3> polygon, const Vector3& receiver_norm
 }  // namespace
 
 Result<SolidAngle> projected_solid_angle(const DiskEmitter& emitter, const Receiver& receiver) {
-  const auto disk = seen(emitter, receiver);
-  if (!disk) return disk.error();
-  if (length(cross(disk->normal, disk->receiver_normal)) > 1e-9) {
+  SPECTILE_ASSIGN(const auto disk, seen(emitter, receiver));
+  if (length(cross(disk.normal, disk.receiver_normal)) > 1e-9) {
     return make_error(
         ErrorCode::kBadArgument,
         "the disk's plane is {:.6g} rad from parallel to the receiver's; there is a closed form "
         "for parallel ones only",
-        std::asin(std::min(1.0, length(cross(disk->normal, disk->receiver_normal)))));
+        std::asin(std::min(1.0, length(cross(disk.normal, disk.receiver_normal)))));
   }
-  const double h = disk->distance();
-  const double r = disk->radius;
-  if (!(h > 0) || !(dot(disk->receiver_normal, disk->centre) > 0) || r == 0) return SolidAngle(0);
-  const double aside = length(cross(disk->normal, disk->centre));
+  const double h = disk.distance();
+  const double r = disk.radius;
+  if (!(h > 0) || !(dot(disk.receiver_normal, disk.centre) > 0) || r == 0) return SolidAngle(0);
+  const double aside = length(cross(disk.normal, disk.centre));
   // pi / 2 (1 - a / b), where b^2 - a^2 = 4 r^2 h^2; b from the distances to the edge's nearest and farthest
   // points, which loses nothing near the edge.
   const double a = (aside - r) * (aside + r) + h * h;
@@ -229,18 +225,15 @@ Result<SolidAngle> projected_solid_angle(const DiskEmitter& emitter, const Recei
 }
 
 Result<SolidAngle> projected_solid_angle(const QuadEmitter& emitter, const Receiver& receiver) {
-  const auto quad = seen(emitter, receiver);
-  if (!quad) return quad.error();
-  const Vector3& c = quad->corner;
-  const std::array<Vector3, 4> polygon = {c, c + quad->u, c + quad->u + quad->v, c + quad->v};
-  return SolidAngle(quad->distance() > 0
-                        ? lambert(above_horizon(polygon, quad->receiver_normal), quad->receiver_normal)
-                        : 0);
+  SPECTILE_ASSIGN(const auto quad, seen(emitter, receiver));
+  const Vector3& c = quad.corner;
+  const std::array<Vector3, 4> polygon = {c, c + quad.u, c + quad.u + quad.v, c + quad.v};
+  return SolidAngle(
+      quad.distance() > 0 ? lambert(above_horizon(polygon, quad.receiver_normal), quad.receiver_normal) : 0);
 }
 
 Result<SolidAngle> projected_solid_angle(std::span<const Vector3> polygon_m, const Receiver& receiver) {
-  const auto normal = unit_normal("the receiver's normal", receiver.normal);
-  if (!normal) return normal.error();
+  SPECTILE_ASSIGN(const auto normal, unit_normal("the receiver's normal", receiver.normal));
   if (polygon_m.size() < 3) {
     return make_error(ErrorCode::kBadArgument, "a polygon of {} corners; at least 3 are needed",
                       polygon_m.size());
@@ -254,7 +247,7 @@ Result<SolidAngle> projected_solid_angle(std::span<const Vector3> polygon_m, con
   }
   if (scale == 0) return SolidAngle(0);
   for (Vector3& corner : polygon) corner = corner / scale;
-  return SolidAngle(of_polygon(polygon, *normal));
+  return SolidAngle(of_polygon(polygon, normal));
 }
 
 Result<SolidAngle> projected_solid_angle_over_corner(double side_a_m, double side_b_m, double height_m) {
@@ -278,45 +271,41 @@ Result<SolidAngle> projected_solid_angle_over_corner(double side_a_m, double sid
 Result<SolidAngle> projected_solid_angle_by_area(const DiskEmitter& emitter, const Receiver& receiver,
                                                  std::size_t points) {
   SPECTILE_TRY(check_points(points));
-  const auto disk = seen(emitter, receiver);
-  if (!disk) return disk.error();
-  const double distance = disk->distance();
+  SPECTILE_ASSIGN(const auto disk, seen(emitter, receiver));
+  const double distance = disk.distance();
   if (!(distance > 0)) return SolidAngle(0);
-  const Frame frame = Frame::from_z(disk->normal);
-  const double mean = mean_contribution(points, disk->receiver_normal, distance, [&](double s, double t) {
-    const double r = disk->radius * std::sqrt(s);  // rings of equal area
-    return disk->centre + r * (std::cos(2 * pi * t) * frame.x + std::sin(2 * pi * t) * frame.y);
+  const Frame frame = Frame::from_z(disk.normal);
+  const double mean = mean_contribution(points, disk.receiver_normal, distance, [&](double s, double t) {
+    const double r = disk.radius * std::sqrt(s);  // rings of equal area
+    return disk.centre + r * (std::cos(2 * pi * t) * frame.x + std::sin(2 * pi * t) * frame.y);
   });
-  return SolidAngle(pi * disk->radius * disk->radius * mean);
+  return SolidAngle(pi * disk.radius * disk.radius * mean);
 }
 
 Result<SolidAngle> projected_solid_angle_by_area(const QuadEmitter& emitter, const Receiver& receiver,
                                                  std::size_t points) {
   SPECTILE_TRY(check_points(points));
-  const auto quad = seen(emitter, receiver);
-  if (!quad) return quad.error();
-  const double distance = quad->distance();
+  SPECTILE_ASSIGN(const auto quad, seen(emitter, receiver));
+  const double distance = quad.distance();
   if (!(distance > 0)) return SolidAngle(0);
-  const double mean = mean_contribution(points, quad->receiver_normal, distance, [&](double s, double t) {
-    return quad->corner + s * quad->u + t * quad->v;
+  const double mean = mean_contribution(points, quad.receiver_normal, distance, [&](double s, double t) {
+    return quad.corner + s * quad.u + t * quad.v;
   });
-  return SolidAngle(length(cross(quad->u, quad->v)) * mean);
+  return SolidAngle(length(cross(quad.u, quad.v)) * mean);
 }
 
 Result<SolidAngle> projected_solid_angle_by_directions(const DiskEmitter& emitter, const Receiver& receiver,
                                                        std::size_t points, std::uint64_t seed) {
   SPECTILE_TRY(check_points(points));
-  const auto disk = seen(emitter, receiver);
-  if (!disk) return disk.error();
-  return by_directions(*disk, points, seed);
+  SPECTILE_ASSIGN(const auto disk, seen(emitter, receiver));
+  return by_directions(disk, points, seed);
 }
 
 Result<SolidAngle> projected_solid_angle_by_directions(const QuadEmitter& emitter, const Receiver& receiver,
                                                        std::size_t points, std::uint64_t seed) {
   SPECTILE_TRY(check_points(points));
-  const auto quad = seen(emitter, receiver);
-  if (!quad) return quad.error();
-  return by_directions(*quad, points, seed);
+  SPECTILE_ASSIGN(const auto quad, seen(emitter, receiver));
+  return by_directions(quad, points, seed);
 }
 
 }  // namespace spectile

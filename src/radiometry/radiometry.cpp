@@ -87,9 +87,8 @@ Result<Rate> photon_rate(const Spectrum& spectral_flux, double first_nm, double 
   }
   // As many photons a joule as the wavelength over h c.
   const double ends_nm[] = {first_nm, last_nm};
-  const auto wavelength = PiecewiseLinearSpectrum::from_samples(ends_nm, ends_nm);
-  if (!wavelength) return wavelength.error();
-  const RadiantFlux flux_times_nm(inner_product(*wavelength, spectral_flux, first_nm, last_nm));
+  SPECTILE_ASSIGN(const auto wavelength, PiecewiseLinearSpectrum::from_samples(ends_nm, ends_nm));
+  const RadiantFlux flux_times_nm(inner_product(wavelength, spectral_flux, first_nm, last_nm));
   return flux_times_nm / photon_energy(1);
 }
 
@@ -126,9 +125,8 @@ Result<LuminousEfficacy> luminous_efficacy(const Spectrum& spectrum, double firs
 }
 
 Result<double> luminous_efficiency(const Spectrum& spectrum) {
-  const auto efficacy = luminous_efficacy(spectrum);
-  if (!efficacy) return efficacy.error();
-  return *efficacy / kMaxLuminousEfficacy;
+  SPECTILE_ASSIGN(const auto efficacy, luminous_efficacy(spectrum));
+  return efficacy / kMaxLuminousEfficacy;
 }
 
 double wien_peak_nm(double temperature_k) noexcept {

@@ -39,7 +39,7 @@ void sigmoid_rows_half(void* const* out, const float* const c[3], const float* s
                        bool white, std::size_t bands, std::size_t n) noexcept;
 void sigmoid_project(float* const dst[3], const float* const c[3], const float* scale, const float* rows,
                      bool white, const float* weights, std::size_t bands, std::size_t n) noexcept;
-void limit_gamut(float* const rgb[3], const float weights[3], float lowest, float highest,
-                 std::uint64_t* moved, std::size_t n) noexcept;
+void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float highest,
+                std::uint64_t* moved, std::size_t n) noexcept;
 
 }  // namespace spectile::reference

@@ -88,8 +88,8 @@ void sigmoid_project(float* const dst[3], const float* const c[3], const float* 
   }
 }
 
-void limit_gamut(float* const rgb[3], const float weights[3], float lowest, float highest,
-                 std::uint64_t* moved, std::size_t n) noexcept {
+void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float highest,
+                std::uint64_t* moved, std::size_t n) noexcept {
   const auto limited = [&](float v) {
     const float above = v < lowest ? lowest : v;
     return highest < above ? highest : above;

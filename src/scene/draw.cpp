@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "src/base/errors.hpp"
-#include "src/scene/pixel_walk.hpp"
 #include "src/scene/parts.hpp"
+#include "src/scene/pixel_walk.hpp"
 
 namespace spectile {
 namespace {
@@ -101,9 +101,7 @@ Result<SceneBatch> SceneBatch::create(std::size_t most_samples, std::size_t rows
   out.stride_ = blocks_for(most_samples) * kLanesPerBlock + kApart;
   out.wavelengths_ = wavelengths;
   const auto take = [&](FloatBuffer& buffer, std::size_t lines) -> Result<void> {
-    auto memory = FloatBuffer::create(lines * out.stride_);
-    if (!memory) return memory.error();
-    buffer = *std::move(memory);
+    SPECTILE_ASSIGN(buffer, FloatBuffer::create(lines * out.stride_));
     return {};
   };
   SPECTILE_TRY(take(out.x_, 1));
@@ -155,10 +153,8 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
   }
   const std::size_t total = count * per_pixel;
   const std::size_t lanes = std::max<std::size_t>(1, std::min(kChunk, total));
-  auto u = ScalarLanes::create(lanes);
-  if (!u) return u.error();
-  auto wavelengths = SampledWavelengths::create(lanes, bands ? 1 : rows);
-  if (!wavelengths) return wavelengths.error();
+  SPECTILE_ASSIGN(auto u, ScalarLanes::create(lanes));
+  SPECTILE_ASSIGN(auto wavelengths, SampledWavelengths::create(lanes, bands ? 1 : rows));
   const auto averages = bands ? parts_->responses.averages(film.bands, false) : nullptr;
 
   batch.size_ = 0;
@@ -184,7 +180,7 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
         pixel = random(run, place);
       }
       const std::uint64_t position = random(pixel, 2 * number);
-      (*u)[i] = static_cast<float>(random(pixel, 2 * number + 1) >> 40) * 0x1p-24F;
+      (u)[i] = static_cast<float>(random(pixel, 2 * number + 1) >> 40) * 0x1p-24F;
       --left;
       number += sampling.shards;
 
@@ -217,11 +213,11 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
       }
       continue;
     }
-    SPECTILE_TRY(sample_wavelengths(sampling.density, u->view(), *wavelengths, kFirstVisibleNm,
-                                    kLastVisibleNm, Execution{1}));
+    SPECTILE_TRY(sample_wavelengths(sampling.density, u.view(), wavelengths, kFirstVisibleNm, kLastVisibleNm,
+                                    Execution{1}));
     for (std::size_t k = 0; k < rows; ++k) {
-      const float* const lambda = wavelengths->lambda_nm.view().row(k);
-      const float* const density = wavelengths->density.view().row(k);
+      const float* const lambda = wavelengths.lambda_nm.view().row(k);
+      const float* const density = wavelengths.density.view().row(k);
       const std::size_t at = k * batch.stride_ + done;
       std::copy_n(lambda, n, batch.lambda_.data() + at);
       std::copy_n(density, n, batch.density_.data() + at);

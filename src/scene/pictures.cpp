@@ -1,8 +1,8 @@
 // What there is to see in the procedural scenes.
 #include <array>
 #include <cmath>
-#include <spectile/spectra/named_spectra.hpp>
 #include <spectile/color/sensor.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 #include <string>
 
 #include "src/scene/layout.hpp"

@@ -5,9 +5,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <spectile/color/sensor.hpp>
 #include <spectile/film/film.hpp>
 #include <spectile/scene/procedural_scene.hpp>
-#include <spectile/color/sensor.hpp>
 #include <utility>
 #include <vector>
 

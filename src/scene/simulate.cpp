@@ -47,11 +47,11 @@ Result<void> run_step(const ProceduralScene& scene, const SceneSampling& samplin
   const std::uint64_t first = step % steps.a_pass() * steps.pixels_a_step;
   const std::uint64_t count = std::min(steps.pixels_a_step, steps.pixels - first);
   const std::uint64_t a_pixel = (steps.samples + steps.passes - 1) / steps.passes;
-  auto batch =
-      SceneBatch::create(count * a_pixel, wavelengths ? sampling.wavelengths : o.bands.count(), wavelengths);
-  if (!batch) return batch.error();
-  if (auto drawn = scene.draw(o, part, first, count, *batch); !drawn) return drawn;
-  return wavelengths ? film.add(batch->wavelength_samples()) : film.add(batch->band_samples());
+  SPECTILE_ASSIGN(
+      auto batch,
+      SceneBatch::create(count * a_pixel, wavelengths ? sampling.wavelengths : o.bands.count(), wavelengths));
+  if (auto drawn = scene.draw(o, part, first, count, batch); !drawn) return drawn;
+  return wavelengths ? film.add(batch.wavelength_samples()) : film.add(batch.band_samples());
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::uint64_t simulation_steps(const FilmOptions& film, const SceneSampling& sam
 }
 
 Result<void> simulate(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
-                      std::uint64_t first, std::uint64_t count, const Execution& how) {
+                      std::uint64_t first, std::uint64_t count, const Execution& execution) {
   const Steps steps = steps_of(film.options(), sampling);
   if (sampling.shards == 0 || sampling.shard >= sampling.shards) {
     return make_error(ErrorCode::kBadArgument, "there is no shard {} of {}", sampling.shard, sampling.shards);
@@ -72,7 +72,7 @@ Result<void> simulate(const ProceduralScene& scene, const SceneSampling& samplin
   }
   std::mutex mutex;
   Result<void> result;
-  tiles::for_blocks(count, {how.threads, 1}, [&](std::size_t begin, std::size_t n) {
+  tiles::for_blocks(count, {execution.threads, 1}, [&](std::size_t begin, std::size_t n) {
     for (std::size_t i = begin; i < begin + n; ++i) {
       Result<void> done = make_error(ErrorCode::kOutOfMemory, "no memory to draw samples");
       try {
@@ -88,17 +88,17 @@ Result<void> simulate(const ProceduralScene& scene, const SceneSampling& samplin
   return result;
 }
 
-Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film, const Execution& how) {
-  auto xyz = FilmDevelopment::create(film, FilmLayer::kXyz);
-  if (!xyz) return xyz.error();
-  if (const auto updated = xyz->update(how); !updated) return updated.error();
+Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
+                                    const Execution& execution) {
+  SPECTILE_ASSIGN(auto xyz, FilmDevelopment::create(film, FilmLayer::kXyz));
+  if (const auto updated = xyz.update(execution); !updated) return updated.error();
   const PixelWindow w = film.window();
   SceneError out;
   double squares_y = 0;
   double squares = 0;
   std::mutex mutex;
   tiles::for_blocks(
-      static_cast<std::size_t>(w.height()), {how.threads, 1}, [&](std::size_t first, std::size_t n) {
+      static_cast<std::size_t>(w.height()), {execution.threads, 1}, [&](std::size_t first, std::size_t n) {
         for (std::size_t row = first; row < first + n; ++row) {
           SceneError line;
           double line_y = 0;
@@ -108,11 +108,11 @@ Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& fi
             const auto truth = scene.xyz(film.options(), x, y);
             line.mean_luminance += truth[1];
             for (std::size_t c = 0; c < 3; ++c) {
-              const double error = static_cast<double>(xyz->at(c, x, y)) - truth[c];
+              const double error = static_cast<double>(xyz.at(c, x, y)) - truth[c];
               line_all += error * error;
               if (c == 1) line_y += error * error;
             }
-            const auto got = static_cast<double>(xyz->at(1, x, y));
+            const auto got = static_cast<double>(xyz.at(1, x, y));
             if (truth[1] != 0) {
               line.largest_relative = std::max(line.largest_relative, std::abs(got / truth[1] - 1));
             }

@@ -141,9 +141,9 @@ double GaussianSumSpectrum::max_value() const noexcept {
   }
   std::vector<double> places;
   for (const Lobe& l : *lobes_) places.push_back(l.mean_nm);
-  constexpr double kMostPlaces = 100000;
-  const double step = std::max(finest / 8, (last - first) / kMostPlaces);
-  const auto count = static_cast<std::size_t>(std::min(kMostPlaces, (last - first) / step));
+  constexpr double kMaxPlaces = 100000;
+  const double step = std::max(finest / 8, (last - first) / kMaxPlaces);
+  const auto count = static_cast<std::size_t>(std::min(kMaxPlaces, (last - first) / step));
   for (std::size_t i = 0; i <= count; ++i) places.push_back(first + static_cast<double>(i) * step);
   double best = 0;
   for (const double place : places) {

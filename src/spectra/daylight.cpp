@@ -23,9 +23,8 @@ Result<std::array<double, 2>> daylight_chromaticity(double temperature_k) {
 }
 
 Result<PiecewiseLinearSpectrum> daylight_spectrum(double temperature_k) {
-  const auto xy = daylight_chromaticity(temperature_k);
-  if (!xy) return xy.error();
-  const auto [x, y] = *xy;
+  SPECTILE_ASSIGN(const auto xy, daylight_chromaticity(temperature_k));
+  const auto [x, y] = xy;
   const auto rounded = [](double m) { return std::round(1000 * m) / 1000; };
   const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
   const double m1 = rounded((-1.3515 - 1.7703 * x + 5.9114 * y) / m);

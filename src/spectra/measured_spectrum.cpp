@@ -100,9 +100,8 @@ MeasuredSpectrum MeasuredSpectrum::scaled(double factor) const {
 
 Result<std::vector<float>> average_over(const Bands& bands, std::span<const double> wavelengths_nm,
                                         std::span<const double> values) {
-  const auto spectrum = MeasuredSpectrum::from_samples(wavelengths_nm, values);
-  if (!spectrum) return spectrum.error();
-  return spectrum->average_over(bands);
+  SPECTILE_ASSIGN(const auto spectrum, MeasuredSpectrum::from_samples(wavelengths_nm, values));
+  return spectrum.average_over(bands);
 }
 
 double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, double first_nm,

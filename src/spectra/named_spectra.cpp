@@ -137,18 +137,16 @@ std::string lower(std::string_view text) {
 
 Result<Spectrum> table_of(const Entry& e) {
   if (e.step_nm == 1) {
-    auto dense =
-        DenselySampledSpectrum::from_values(static_cast<int>(e.first_nm), {e.values.begin(), e.values.end()});
-    if (!dense) return dense.error();
-    return Spectrum(*std::move(dense));
+    SPECTILE_ASSIGN(auto dense, DenselySampledSpectrum::from_values(static_cast<int>(e.first_nm),
+                                                                    {e.values.begin(), e.values.end()}));
+    return Spectrum(std::move(dense));
   }
   std::vector<double> wavelengths(e.wavelengths_nm.begin(), e.wavelengths_nm.end());
   for (std::size_t i = wavelengths.size(); i < e.values.size(); ++i) {
     wavelengths.push_back(e.first_nm + static_cast<double>(i) * e.step_nm);
   }
-  auto linear = PiecewiseLinearSpectrum::from_samples(wavelengths, e.values);
-  if (!linear) return linear.error();
-  return Spectrum(*std::move(linear));
+  SPECTILE_ASSIGN(auto linear, PiecewiseLinearSpectrum::from_samples(wavelengths, e.values));
+  return Spectrum(std::move(linear));
 }
 
 /// How many letters must be put in, taken out or exchanged to make `b` of `a`.
@@ -169,9 +167,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// The longest name takes part in comparisons; longer texts are near none, and are not quoted whole.
 constexpr std::size_t kLongestName = 64;
-constexpr std::size_t kMostNear = 5;
+constexpr std::size_t kMaxNear = 5;
 
-/// Names that were perhaps meant, the nearest first, at most kMostNear.
+/// Names that were perhaps meant, the nearest first, at most kMaxNear.
 std::vector<std::string> names_near(std::string_view text) {
   if (text.empty() || text.size() > kLongestName) return {};
   const std::string wanted = lower(text);
@@ -198,8 +196,8 @@ std::vector<std::string> names_near(std::string_view text) {
   }
   std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < std::min(near.size(), kMostNear); ++i) out.push_back(near[i].second);
-  if (near.size() > kMostNear) out.push_back(fmt::format("and {} more", near.size() - kMostNear));
+  for (std::size_t i = 0; i < std::min(near.size(), kMaxNear); ++i) out.push_back(near[i].second);
+  if (near.size() > kMaxNear) out.push_back(fmt::format("and {} more", near.size() - kMaxNear));
   return out;
 }
 

@@ -89,9 +89,8 @@ Result<std::size_t> planned_light(const Plan& plan, const MeasuredSpectrum& ligh
 
 Result<std::vector<double>> light_samples(const MeasuredSpectrum& light, const Bands& bands) {
   if (bands.plan() != nullptr) {
-    const auto index = planned_light(*bands.plan(), light);
-    if (!index) return index.error();
-    return bands.plan()->lights[*index].emission;
+    SPECTILE_ASSIGN(const auto index, planned_light(*bands.plan(), light));
+    return bands.plan()->lights[index].emission;
   }
   std::vector<double> out;
   for (std::size_t b = 0; b < bands.count(); ++b) out.push_back(sample_in(light, bands, b));

@@ -18,9 +18,8 @@ std::string ConstantSpectrum::to_text() const {
 
 Result<PiecewiseLinearSpectrum> PiecewiseLinearSpectrum::from_samples(std::span<const double> wavelengths_nm,
                                                                       std::span<const double> values) {
-  auto samples = MeasuredSpectrum::from_samples(wavelengths_nm, values);
-  if (!samples) return samples.error();
-  return PiecewiseLinearSpectrum(*std::move(samples));
+  SPECTILE_ASSIGN(auto samples, MeasuredSpectrum::from_samples(wavelengths_nm, values));
+  return PiecewiseLinearSpectrum(std::move(samples));
 }
 
 PiecewiseLinearSpectrum::PiecewiseLinearSpectrum(MeasuredSpectrum samples)
@@ -53,15 +52,15 @@ PiecewiseLinearSpectrum PiecewiseLinearSpectrum::scaled(double factor) const {
 }
 
 namespace {
-constexpr int kMostNanometres = 100000;
+constexpr int kMaxNanometres = 100000;
 }
 
 Result<DenselySampledSpectrum> DenselySampledSpectrum::from(const Spectrum& spectrum, int first_nm,
                                                             int last_nm) {
   const std::int64_t count = std::int64_t{last_nm} - first_nm;
-  if (count < 1 || count > kMostNanometres) {
+  if (count < 1 || count > kMaxNanometres) {
     return make_error(ErrorCode::kBadArgument, "a table from {} to {} nm holds {} nm; it takes 1 to {}",
-                      first_nm, last_nm, count, kMostNanometres);
+                      first_nm, last_nm, count, kMaxNanometres);
   }
   std::vector<double> values;
   std::visit(
@@ -73,9 +72,9 @@ Result<DenselySampledSpectrum> DenselySampledSpectrum::from(const Spectrum& spec
 }
 
 Result<DenselySampledSpectrum> DenselySampledSpectrum::from_values(int first_nm, std::vector<double> values) {
-  if (values.size() < 2 || values.size() > kMostNanometres + 1) {
+  if (values.size() < 2 || values.size() > kMaxNanometres + 1) {
     return make_error(ErrorCode::kBadArgument, "a table at every nanometre takes 2 to {} values, not {}",
-                      kMostNanometres + 1, values.size());
+                      kMaxNanometres + 1, values.size());
   }
   if (std::int64_t{first_nm} + static_cast<std::int64_t>(values.size()) - 1 >
       std::numeric_limits<int>::max()) {

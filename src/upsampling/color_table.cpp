@@ -11,14 +11,14 @@ namespace spectile::rows {
 namespace {
 
 // Entries at most: 32 MiB.
-constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxEntries = std::uint64_t{1} << 20;
 // Places where a colour may be.
 constexpr std::uint32_t kProbes = 16;
 // Lanes after which a batch judges whether looking for them is worth while, and lines that it then goes
 // without at first and at most.
 constexpr std::uint64_t kJudged = 4096;
 constexpr int kFirstPatience = 16;
-constexpr int kMostPatience = 1024;
+constexpr int kMaxPatience = 1024;
 
 // An entry's state, in the order in which it goes through them.
 constexpr std::uint32_t kFree = 0;
@@ -49,9 +49,7 @@ std::uint32_t after(const std::atomic<std::uint32_t>& state, std::uint32_t passi
 Result<ColorTable::Batch> ColorTable::Batch::create(std::size_t lanes) {
   Batch batch;
   const std::size_t padded = blocks_for(lanes) * kLanesPerBlock;
-  auto memory = FloatBuffer::create(7 * padded);
-  if (!memory) return memory.error();
-  batch.memory_ = *std::move(memory);
+  SPECTILE_ASSIGN(batch.memory_, FloatBuffer::create(7 * padded));
   for (std::size_t k = 0; k < 3; ++k) batch.rgb_[k] = batch.memory_.data() + k * padded;
   for (std::size_t k = 0; k < 4; ++k) batch.c_[k] = batch.memory_.data() + (3 + k) * padded;
   batch.unsolved_.resize(padded / kLanesPerBlock);
@@ -65,7 +63,7 @@ Result<ColorTable::Batch> ColorTable::Batch::create(std::size_t lanes) {
 ColorTable::ColorTable(const kernels::KernelTable& kernels, const Upsampler& upsampler, OutOfGamut policy,
                        std::uint64_t lanes)
     : kernels_(kernels), upsampler_(upsampler), policy_(policy) {
-  const std::uint64_t entries = std::clamp<std::uint64_t>(std::bit_ceil(2 * lanes), 1024, kMostEntries);
+  const std::uint64_t entries = std::clamp<std::uint64_t>(std::bit_ceil(2 * lanes), 1024, kMaxEntries);
   entries_ = std::make_unique<Entry[]>(entries);
   mask_ = static_cast<std::uint32_t>(entries - 1);
 }
@@ -79,7 +77,7 @@ bool ColorTable::worth_while(Batch& batch) const {
     // A look costs about as much as half a solution.
     const bool good = 2 * batch.recent_colors_ <= batch.recent_lanes_;
     batch.recent_lanes_ = batch.recent_colors_ = 0;
-    batch.patience_ = good ? 0 : std::clamp(4 * batch.patience_, kFirstPatience, kMostPatience);
+    batch.patience_ = good ? 0 : std::clamp(4 * batch.patience_, kFirstPatience, kMaxPatience);
     batch.idle_lines_ = batch.patience_;
   }
   return true;
@@ -143,7 +141,7 @@ void ColorTable::solve(Batch& batch) {
   for (float* const row : batch.rgb_) std::fill(row + n, row + padded, 0.0F);
   const bool scaled = has_scale(upsampler_);
   const auto start = std::chrono::steady_clock::now();
-  limit_gamut(kernels_, upsampler_, batch.rgb_, policy_, n, batch.outside_.data());
+  gamut_clip(kernels_, upsampler_, batch.rgb_, policy_, n, batch.outside_.data());
   rows::solve(kernels_, upsampler_, batch.rgb_,
               {{batch.c_[0], batch.c_[1], batch.c_[2]}, scaled ? batch.c_[3] : nullptr},
               batch.unsolved_.data(), padded);

@@ -13,7 +13,7 @@
 
 namespace spectile::rows {
 
-/// Colours by the bits of their RGB, with what limit_gamut() and solve() make of them: the same bits, since
+/// Colours by the bits of their RGB, with what gamut_clip() and solve() make of them: the same bits, since
 /// those take every lane by itself. Several threads share a table, each with a batch of its own. A table that
 /// is full, or that finds too little, leaves colours to be solved as they come.
 class ColorTable {

@@ -6,9 +6,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/upsampling/method_rows.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
 namespace rows {
@@ -48,8 +48,8 @@ GamutReport limit_bases(const kernels::KernelTable& kernels, const Upsampler& up
   for (std::size_t at = 0; at < n; at += kLanes) {
     float* const block[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     std::uint64_t moved = 0;
-    kernels.limit_gamut(block, upsampler.luminance().data(), 0.0F, std::numeric_limits<float>::infinity(),
-                        &moved, kLanes);
+    kernels.gamut_clip(block, upsampler.luminance().data(), 0.0F, std::numeric_limits<float>::infinity(),
+                       &moved, kLanes);
   }
   return report;
 }
@@ -137,26 +137,25 @@ GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& 
 
 }  // namespace
 
-GamutReport limit_gamut(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                        OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
+GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
+                       OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
   return mixes_bases(upsampler) ? limit_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
                                 : limit_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
 }
 
 }  // namespace rows
 
-Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb, OutOfGamut policy,
-                                const Execution& how) {
+Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb, OutOfGamut policy,
+                               const Execution& execution) {
   for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t blocks = blocks_for(rgb.lanes);
   std::vector<GamutReport> reports(blocks);
-  tiles::for_blocks(blocks, how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks, execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     float* const planes[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
     const std::size_t lanes = std::min(count * kLanesPerBlock, rgb.lanes - at);
-    GamutReport report = rows::limit_gamut(**table, upsampler, planes, policy, lanes);
+    GamutReport report = rows::gamut_clip(*table, upsampler, planes, policy, lanes);
     if (report.outside > 0) report.first += static_cast<std::int64_t>(at);
     reports[first] = report;
   });

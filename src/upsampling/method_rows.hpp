@@ -37,9 +37,9 @@ bool misses_inside(const Upsampler& upsampler);
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
                    const float* scale, float* spectra, std::size_t blocks, bool stream);
 
-/// limit_gamut() on a row of `n` lanes, padded to a multiple of 64 with zeros. `lanes_outside` [n], where
+/// gamut_clip() on a row of `n` lanes, padded to a multiple of 64 with zeros. `lanes_outside` [n], where
 /// asked for, becomes 1 for each of them that is, else 0.
-GamutReport limit_gamut(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                        OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside = nullptr);
+GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
+                       OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside = nullptr);
 
 }  // namespace spectile::rows

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "src/base/errors.hpp"
-#include "src/dispatch/dispatch.hpp"
 #include "src/color/color_matrix.hpp"
+#include "src/dispatch/dispatch.hpp"
+#include "src/lanes/shape.hpp"
+#include "src/lanes/tiles.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/relight_rows.hpp"
-#include "src/lanes/shape.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
-#include "src/lanes/tiles.hpp"
 
 namespace spectile {
 namespace {
@@ -33,9 +33,8 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
   out.projector_ = &under;
   out.matrix_ = to;
   if (!rows::mixes_bases(upsampler)) return out;
-  auto table = FloatBuffer::create(3 * kSmitsRow);
-  if (!table) return table.error();
-  out.table_ = *std::move(table);
+  SPECTILE_ASSIGN(auto table, FloatBuffer::create(3 * kSmitsRow));
+  out.table_ = std::move(table);
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
   const auto weights = under.weights();
   const auto basis = upsampler.basis();
@@ -129,17 +128,16 @@ void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& re
 
 }  // namespace rows
 
-Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& how) {
+Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
   for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
   for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
-  tiles::for_blocks(blocks_for(rgb.lanes), how, [&](std::size_t first, std::size_t count) {
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
+  tiles::for_blocks(blocks_for(rgb.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const in[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
     float* const to[3] = {out.c[0] + at, out.c[1] + at, out.c[2] + at};
-    rows::relight(**table, relighter, in, to, count * kLanesPerBlock);
+    rows::relight(*table, relighter, in, to, count * kLanesPerBlock);
   });
   return {};
 }

@@ -1,7 +1,7 @@
 // Representations of light and materials with one interface.
 #include <algorithm>
-#include <spectile/upsampling/representation.hpp>
 #include <spectile/color/sensor.hpp>
+#include <spectile/upsampling/representation.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -27,13 +27,10 @@ SampledRepresentation::SampledRepresentation(Upsampler reflectances, Upsampler l
       projector_(std::make_shared<const Projector>(std::move(projector))) {}
 
 Result<SampledRepresentation> SampledRepresentation::create(const Bands& bands, Method method) {
-  auto reflectances = Upsampler::create(method, Quantity::kReflectance, bands);
-  if (!reflectances) return reflectances.error();
-  auto lights = Upsampler::create(method, Quantity::kIlluminant, bands);
-  if (!lights) return lights.error();
-  auto projector = Projector::emissive(bands);
-  if (!projector) return projector.error();
-  return SampledRepresentation(*std::move(reflectances), *std::move(lights), *std::move(projector));
+  SPECTILE_ASSIGN(auto reflectances, Upsampler::create(method, Quantity::kReflectance, bands));
+  SPECTILE_ASSIGN(auto lights, Upsampler::create(method, Quantity::kIlluminant, bands));
+  SPECTILE_ASSIGN(auto projector, Projector::emissive(bands));
+  return SampledRepresentation(std::move(reflectances), std::move(lights), std::move(projector));
 }
 
 Result<SampledSpectra> SampledRepresentation::constant(std::size_t lanes, float value) const {
@@ -49,36 +46,35 @@ Result<SampledSpectra> SampledRepresentation::reflectance(const Spectrum& spectr
 }
 
 Result<void> SampledRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan out,
-                                                   const Execution& how) const {
-  return upsample_srgb(*lights_, rgb, out, Stores::kAuto, how);
+                                                   const Execution& execution) const {
+  return upsample_srgb(*lights_, rgb, out, StoreHint::kAuto, execution);
 }
 
 Result<void> SampledRepresentation::reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out,
-                                                         const Execution& how) const {
-  return upsample_srgb(*reflectances_, rgb, out, Stores::kAuto, how);
+                                                         const Execution& execution) const {
+  return upsample_srgb(*reflectances_, rgb, out, StoreHint::kAuto, execution);
 }
 
 Result<void> SampledRepresentation::to_xyz(SampledSpectraView light, ColorSpan xyz,
-                                           const Execution& how) const {
-  return project(*projector_, light, xyz, how);
+                                           const Execution& execution) const {
+  return project(*projector_, light, xyz, execution);
 }
 
 Result<void> SampledRepresentation::to_rgb(SampledSpectraView light, ColorSpan rgb,
-                                           const Execution& how) const {
-  SPECTILE_TRY(project(*projector_, light, rgb, how));
-  return transform(projector_->xyz_to_srgb(), rgb, rgb, how);
+                                           const Execution& execution) const {
+  SPECTILE_TRY(project(*projector_, light, rgb, execution));
+  return transform(projector_->xyz_to_srgb(), rgb, rgb, execution);
 }
 
 Result<void> SampledRepresentation::luminance(SampledSpectraView light, LanesSpan y,
-                                              const Execution& how) const {
-  return spectile::luminance(*projector_, light, y, how);
+                                              const Execution& execution) const {
+  return spectile::luminance(*projector_, light, y, execution);
 }
 
 Result<RgbRepresentation> RgbRepresentation::create() {
-  auto bands = Bands::from_list({{0.5, 1, 1.5}, {1.5, 2, 2.5}, {2.5, 3, 3.5}});
-  if (!bands) return bands.error();
+  SPECTILE_ASSIGN(auto bands, Bands::from_list({{0.5, 1, 1.5}, {1.5, 2, 2.5}, {2.5, 3, 3.5}}));
   RgbRepresentation out;
-  out.bands_ = *bands;
+  out.bands_ = bands;
   return out;
 }
 
@@ -87,29 +83,26 @@ Result<SampledSpectra> RgbRepresentation::constant(std::size_t lanes, float valu
 }
 
 Result<SampledSpectra> RgbRepresentation::light(const Spectrum& spectrum, std::size_t lanes) const {
-  const auto observer = Sensor::named("cie1931");
-  if (!observer) return observer.error();
-  return broadcast_rgb(bands_, lanes, xyz_to_srgb_matrix(), observer->response(spectrum));
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  return broadcast_rgb(bands_, lanes, xyz_to_srgb_matrix(), observer.response(spectrum));
 }
 
 Result<SampledSpectra> RgbRepresentation::reflectance(const Spectrum& spectrum, std::size_t lanes) const {
-  const auto observer = Sensor::named("cie1931");
-  if (!observer) return observer.error();
-  const auto d65 = illuminant("D65");
-  if (!d65) return d65.error();
-  const Spectrum light = PiecewiseLinearSpectrum(*d65);
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  SPECTILE_ASSIGN(const auto d65, illuminant("D65"));
+  const Spectrum light = PiecewiseLinearSpectrum(d65);
   // The white that D65 has here is the space's own but for its chromaticity's four decimals.
-  const Matrix3 to_rgb = inverse(rgb_to_xyz(kRec709, observer->response(light)));
-  return broadcast_rgb(bands_, lanes, to_rgb, observer->response(light, spectrum));
+  const Matrix3 to_rgb = inverse(rgb_to_xyz(kRec709, observer.response(light)));
+  return broadcast_rgb(bands_, lanes, to_rgb, observer.response(light, spectrum));
 }
 
 Result<void> RgbRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan out,
-                                               const Execution& how) const {
+                                               const Execution& execution) const {
   SPECTILE_TRY(shape::bands_of("the representation", bands_, out.bands));
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(out.data));
   for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  tiles::for_blocks(blocks_for(rgb.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(rgb.lanes), execution, [&](std::size_t first, std::size_t count) {
     for (std::size_t block = first; block < first + count; ++block) {
       for (std::size_t k = 0; k < 3; ++k) {
         std::copy_n(rgb.c[k] + block * kLanesPerBlock, kLanesPerBlock,
@@ -121,65 +114,64 @@ Result<void> RgbRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan
 }
 
 Result<void> RgbRepresentation::reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out,
-                                                     const Execution& how) const {
-  return light_from_rgb(rgb, out, how);
+                                                     const Execution& execution) const {
+  return light_from_rgb(rgb, out, execution);
 }
 
 Result<void> RgbRepresentation::weighted(const Matrix3& matrix, SampledSpectraView light, ColorSpan out,
-                                         const Execution& how) const {
+                                         const Execution& execution) const {
   SPECTILE_TRY(shape::bands_of("the representation", bands_, light.bands));
   SPECTILE_TRY(shape::same_lanes(light.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
   for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   alignas(64) float weights[3][4] = {};
   for (std::size_t i = 0; i < 9; ++i) weights[i % 3][i / 3] = static_cast<float>(matrix[i]);
-  tiles::for_blocks(light.blocks(), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(light.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->project(out.c[0] + at, out.c[1] + at, out.c[2] + at, light.data + 3 * at, weights[0], 3, count);
+    table->project(out.c[0] + at, out.c[1] + at, out.c[2] + at, light.data + 3 * at, weights[0], 3, count);
   });
   return {};
 }
 
-Result<void> RgbRepresentation::to_xyz(SampledSpectraView light, ColorSpan xyz, const Execution& how) const {
-  return weighted(srgb_to_xyz_matrix(), light, xyz, how);
+Result<void> RgbRepresentation::to_xyz(SampledSpectraView light, ColorSpan xyz,
+                                       const Execution& execution) const {
+  return weighted(srgb_to_xyz_matrix(), light, xyz, execution);
 }
 
-Result<void> RgbRepresentation::to_rgb(SampledSpectraView light, ColorSpan rgb, const Execution& how) const {
-  return weighted({1, 0, 0, 0, 1, 0, 0, 0, 1}, light, rgb, how);
+Result<void> RgbRepresentation::to_rgb(SampledSpectraView light, ColorSpan rgb,
+                                       const Execution& execution) const {
+  return weighted({1, 0, 0, 0, 1, 0, 0, 0, 1}, light, rgb, execution);
 }
 
-Result<void> RgbRepresentation::luminance(SampledSpectraView light, LanesSpan y, const Execution& how) const {
+Result<void> RgbRepresentation::luminance(SampledSpectraView light, LanesSpan y,
+                                          const Execution& execution) const {
   SPECTILE_TRY(shape::bands_of("the representation", bands_, light.bands));
   SPECTILE_TRY(shape::same_lanes(light.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
   SPECTILE_TRY(shape::aligned(y.data));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   float weights[3];
   for (std::size_t k = 0; k < 3; ++k) weights[k] = static_cast<float>(srgb_to_xyz_matrix()[3 + k]);
-  tiles::for_blocks(light.blocks(), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(light.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    (*table)->weighted_sum(y.data + at, light.data + 3 * at, weights, 3, count);
+    table->weighted_sum(y.data + at, light.data + 3 * at, weights, 3, count);
   });
   return {};
 }
 
 Result<void> RgbRepresentation::from_sampled(const SampledRepresentation& other, SampledSpectraView light,
-                                             SampledSpectraSpan out, const Execution& how) const {
-  auto rgb = ColorLanes::create(light.lanes);
-  if (!rgb) return rgb.error();
-  SPECTILE_TRY(other.to_rgb(light, rgb->span(), how));
-  return light_from_rgb(rgb->view(), out, how);
+                                             SampledSpectraSpan out, const Execution& execution) const {
+  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(light.lanes));
+  SPECTILE_TRY(other.to_rgb(light, rgb.span(), execution));
+  return light_from_rgb(rgb.view(), out, execution);
 }
 
 Result<void> RgbRepresentation::to_sampled(const SampledRepresentation& other, SampledSpectraView light,
-                                           SampledSpectraSpan out, const Execution& how) const {
-  auto rgb = ColorLanes::create(light.lanes);
-  if (!rgb) return rgb.error();
-  SPECTILE_TRY(to_rgb(light, rgb->span(), how));
-  return other.light_from_rgb(rgb->view(), out, how);
+                                           SampledSpectraSpan out, const Execution& execution) const {
+  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(light.lanes));
+  SPECTILE_TRY(to_rgb(light, rgb.span(), execution));
+  return other.light_from_rgb(rgb.view(), out, execution);
 }
 
 }  // namespace spectile

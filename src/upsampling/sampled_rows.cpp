@@ -49,13 +49,12 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
                                      const MeasuredSpectrum& light) {
   const UpsamplerOptions& made = upsampler.options();
   const bool planned = bands.plan() != nullptr || upsampler.bands().plan() != nullptr;
-  const auto space = working_space(planned ? bands : upsampler.bands(), upsampler.quantity(), made.primaries,
-                                   light, made.observer);
-  if (!space) return space.error();
-  if (planned) return space->white;
+  SPECTILE_ASSIGN(const auto space, working_space(planned ? bands : upsampler.bands(), upsampler.quantity(),
+                                                  made.primaries, light, made.observer));
+  if (planned) return space.white;
   auto out = light_samples(light, bands);
   if (!out) return out;
-  for (double& v : *out) v /= space->luminance;
+  for (double& v : *out) v /= space.luminance;
   return out;
 }
 
@@ -69,9 +68,7 @@ Result<SampledRows> SampledRows::of_size(const Upsampler& upsampler, std::size_t
   out.white_ = out.sigmoid_ && upsampler.quantity() == Quantity::kIlluminant;
   out.lowest_ = upsampler.lowest();
   out.row_floats_ = out.sigmoid_ ? kSigmoidRow : kernels::kSmitsRow;
-  auto table = FloatBuffer::create(count * out.row_floats_);
-  if (!table) return table.error();
-  out.table_ = *std::move(table);
+  SPECTILE_ASSIGN(out.table_, FloatBuffer::create(count * out.row_floats_));
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
   return out;
 }
@@ -106,18 +103,15 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
   if (bands == upsampler.bands()) {
     out->copy(upsampler);
   } else if (!out->sigmoid_) {
-    const auto other =
-        Upsampler::create(upsampler.method(), upsampler.quantity(), bands, upsampler.options());
-    if (!other) return other.error();
-    out->copy(*other);
+    SPECTILE_ASSIGN(const auto other,
+                    Upsampler::create(upsampler.method(), upsampler.quantity(), bands, upsampler.options()));
+    out->copy(other);
   } else {
     const UpsamplerOptions& made = upsampler.options();
     const MeasuredSpectrum light = made.light ? *made.light : *illuminant("D65");
     std::vector<double> white(bands.count(), 1.0);
     if (out->white_) {
-      auto samples = white_in(bands, upsampler, light);
-      if (!samples) return samples.error();
-      white = *std::move(samples);
+      SPECTILE_ASSIGN(white, white_in(bands, upsampler, light));
     }
     for (std::size_t b = 0; b < bands.count(); ++b) {
       out->row(b)[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), bands[b].centre_nm);
@@ -129,14 +123,13 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
 }
 
 Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const double> wavelengths_nm) {
-  auto out = of_size(upsampler, wavelengths_nm.size());
-  if (!out) return out.error();
+  SPECTILE_ASSIGN(auto out, of_size(upsampler, wavelengths_nm.size()));
   const std::size_t last = upsampler.bands().count() - 1;
   for (std::size_t i = 0; i < wavelengths_nm.size(); ++i) {
     const Place place = place_of(upsampler.bands(), wavelengths_nm[i]);
     const std::size_t next = std::min(place.band + 1, last);
-    float* const row = out->row(i);
-    if (out->sigmoid_) {
+    float* const row = out.row(i);
+    if (out.sigmoid_) {
       const float* const own = upsampler.sigmoid()->table.rows;
       const auto white = [own](std::size_t b) {
         return static_cast<double>(own[b * kSigmoidRow + kSigmoidWhite]);
@@ -150,7 +143,7 @@ Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const 
       }
     }
   }
-  out->set_limits();
+  out.set_limits();
   return out;
 }
 

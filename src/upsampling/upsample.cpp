@@ -3,11 +3,11 @@
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
-#include "src/dispatch/dispatch.hpp"
 #include "src/color/color_matrix.hpp"
-#include "src/upsampling/method_rows.hpp"
+#include "src/dispatch/dispatch.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
 namespace {
@@ -35,9 +35,9 @@ Result<void> check(const Upsampler& upsampler, const ColorView& in, const Sample
   return {};
 }
 
-bool streams(Stores stores, const SampledSpectraSpan& spectra) {
+bool streams(StoreHint stores, const SampledSpectraSpan& spectra) {
   const std::size_t bytes = SampledSpectraView(spectra).floats() * sizeof(float);
-  return stores == Stores::kStreaming || (stores == Stores::kAuto && bytes > kStreamingBytes);
+  return stores == StoreHint::kStreaming || (stores == StoreHint::kAuto && bytes > kStreamingBytes);
 }
 
 /// Runs a tile of blocks through a matrix, where there is one, and the method.
@@ -66,13 +66,12 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
 }
 
 Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* matrix,
-                 const SampledSpectraSpan& spectra, Stores stores, const Execution& how) {
+                 const SampledSpectraSpan& spectra, StoreHint stores, const Execution& execution) {
   SPECTILE_TRY(check(upsampler, in, spectra));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const bool stream = streams(stores, spectra);
-  tiles::for_blocks(blocks_for(in.lanes), how, [&](std::size_t first, std::size_t count) {
-    upsample_tile(**table, upsampler, in, matrix, spectra.data, first, count, stream);
+  tiles::for_blocks(blocks_for(in.lanes), execution, [&](std::size_t first, std::size_t count) {
+    upsample_tile(*table, upsampler, in, matrix, spectra.data, first, count, stream);
   });
   return {};
 }
@@ -80,46 +79,41 @@ Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* m
 }  // namespace
 
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
-                           Stores stores, const Execution& how) {
-  return run(upsampler, rgb, nullptr, spectra, stores, how);
+                           StoreHint stores, const Execution& execution) {
+  return run(upsampler, rgb, nullptr, spectra, stores, execution);
 }
 
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
-                          Stores stores, const Execution& how) {
+                          StoreHint stores, const Execution& execution) {
   const std::array<float, 9> matrix = color::to_float(xyz_to_srgb_matrix());
-  return run(upsampler, xyz, matrix.data(), spectra, stores, how);
+  return run(upsampler, xyz, matrix.data(), spectra, stores, execution);
 }
 
 Result<CoefficientLanes> CoefficientLanes::create(const Upsampler& upsampler, std::size_t lanes) {
   CoefficientLanes out;
-  auto c = ColorLanes::create(lanes);
-  if (!c) return c.error();
-  out.c = *std::move(c);
+  SPECTILE_ASSIGN(out.c, ColorLanes::create(lanes));
   if (rows::has_scale(upsampler)) {
-    auto scale = ScalarLanes::create(lanes);
-    if (!scale) return scale.error();
-    out.scale = *std::move(scale);
+    SPECTILE_ASSIGN(out.scale, ScalarLanes::create(lanes));
   }
   return out;
 }
 
 Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, CoefficientLanes& out,
-                          const Execution& how) {
+                          const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.c.lanes()));
   if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.scale.lanes()));
   for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t blocks = blocks_for(rgb.lanes);
   std::vector<std::uint64_t> unsolved(blocks);
   const ColorSpan c = out.c.span();
   float* const scale = rows::has_scale(upsampler) ? out.scale.span().data : nullptr;
-  tiles::for_blocks(blocks, how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks, execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const source[3] = {rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at};
     const rows::Coefficients row = {{c.c[0] + at, c.c[1] + at, c.c[2] + at},
                                     scale == nullptr ? nullptr : scale + at};
-    rows::solve(**table, upsampler, source, row, unsolved.data() + first, count * kLanesPerBlock);
+    rows::solve(*table, upsampler, source, row, unsolved.data() + first, count * kLanesPerBlock);
   });
   out.unsolved = {};
   for (std::size_t i = 0; i < rgb.lanes; ++i) {
@@ -130,19 +124,18 @@ Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, Coefficient
 }
 
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraSpan spectra,
-                    Stores stores, const Execution& how) {
+                    StoreHint stores, const Execution& execution) {
   const ColorView c = in.c.view();
   SPECTILE_TRY(check(upsampler, c, spectra));
   if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(c.lanes, in.scale.lanes()));
-  const auto table = dispatch::active();
-  if (!table) return table.error();
+  SPECTILE_ASSIGN(const auto table, dispatch::active());
   const bool stream = streams(stores, spectra);
   const float* const scale = rows::has_scale(upsampler) ? in.scale.view().data : nullptr;
   const std::size_t bands = upsampler.bands().count();
-  tiles::for_blocks(blocks_for(c.lanes), how, [&](std::size_t first, std::size_t count) {
+  tiles::for_blocks(blocks_for(c.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const row[3] = {c.c[0] + at, c.c[1] + at, c.c[2] + at};
-    rows::expand_blocks(**table, upsampler, row, scale == nullptr ? nullptr : scale + at,
+    rows::expand_blocks(*table, upsampler, row, scale == nullptr ? nullptr : scale + at,
                         spectra.data + at * bands, count, stream);
   });
   return {};

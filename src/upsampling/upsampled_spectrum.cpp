@@ -27,15 +27,13 @@ Error cannot_make(const Upsampler& upsampler, const std::array<double, 3>& rgb) 
 
 Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler,
                                                       const std::array<double, 3>& rgb) {
-  auto lanes = ColorLanes::create(1);
-  if (!lanes) return lanes.error();
+  SPECTILE_ASSIGN(auto lanes, ColorLanes::create(1));
   for (std::size_t k = 0; k < 3; ++k) {
-    lanes->at(0, k) = static_cast<float>(rgb[k]);
-    if (!std::isfinite(lanes->at(0, k))) return cannot_make(upsampler, rgb);
+    lanes.at(0, k) = static_cast<float>(rgb[k]);
+    if (!std::isfinite(lanes.at(0, k))) return cannot_make(upsampler, rgb);
   }
-  const auto report = limit_gamut(upsampler, lanes->span(), OutOfGamut::kKeep);
-  if (!report) return report.error();
-  if (report->outside > 0) return cannot_make(upsampler, rgb);
+  SPECTILE_ASSIGN(const auto report, gamut_clip(upsampler, lanes.span(), OutOfGamut::kKeep));
+  if (report.outside > 0) return cannot_make(upsampler, rgb);
   UpsampledSpectrum out;
   out.method_ = upsampler.method();
   out.quantity_ = upsampler.quantity();
@@ -48,25 +46,22 @@ Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler
   for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
   std::vector<double> values;
   if (out.sigmoid_) {
-    auto found = CoefficientLanes::create(upsampler, 1);
-    if (!found) return found.error();
-    SPECTILE_TRY(spectile::coefficients(upsampler, lanes->view(), *found));
-    for (std::size_t k = 0; k < 3; ++k) out.c_[k] = found->c.at(0, k);
-    if (rows::has_scale(upsampler)) out.scale_ = found->scale[0];
+    SPECTILE_ASSIGN(auto found, CoefficientLanes::create(upsampler, 1));
+    SPECTILE_TRY(spectile::coefficients(upsampler, lanes.view(), found));
+    for (std::size_t k = 0; k < 3; ++k) out.c_[k] = found.c.at(0, k);
+    if (rows::has_scale(upsampler)) out.scale_ = found.scale[0];
     if (upsampler.quantity() != Quantity::kIlluminant) return out;
     const float* const own = upsampler.sigmoid()->table.rows;
     for (std::size_t b = 0; b < bands.count(); ++b) {
       values.push_back(own[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
     }
   } else {
-    auto spectra = SampledSpectra::create(bands, 1);
-    if (!spectra) return spectra.error();
-    SPECTILE_TRY(upsample_srgb(upsampler, lanes->view(), spectra->span()));
-    for (std::size_t b = 0; b < bands.count(); ++b) values.push_back(spectra->at(0, b));
+    SPECTILE_ASSIGN(auto spectra, SampledSpectra::create(bands, 1));
+    SPECTILE_TRY(upsample_srgb(upsampler, lanes.view(), spectra.span()));
+    for (std::size_t b = 0; b < bands.count(); ++b) values.push_back(spectra.at(0, b));
   }
-  auto table = MeasuredSpectrum::from_samples(centres, values);
-  if (!table) return table.error();
-  out.table_ = std::make_shared<const MeasuredSpectrum>(*std::move(table));
+  SPECTILE_ASSIGN(auto table, MeasuredSpectrum::from_samples(centres, values));
+  out.table_ = std::make_shared<const MeasuredSpectrum>(std::move(table));
   return out;
 }
 

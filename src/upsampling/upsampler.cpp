@@ -56,14 +56,13 @@ Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands
   const MeasuredSpectrum light = d65_of_luminance_one();
   BasisTable out(bands.count());
   for (std::size_t k = 0; k < 7; ++k) {
-    const auto basis = MeasuredSpectrum::from_samples(data.wavelengths_nm, data.basis[k]);
-    if (!basis) return basis.error();
+    SPECTILE_ASSIGN(const auto basis, MeasuredSpectrum::from_samples(data.wavelengths_nm, data.basis[k]));
     for (std::size_t b = 0; b < bands.count(); ++b) {
       const Band& band = bands[b];
       const bool averages = times_light && !bands.are_points();
       const double sample =
-          averages ? product_integral(*basis, light, band.lower_nm, band.upper_nm) / band.width_nm()
-                   : sample_in(*basis, bands, b) * (times_light ? light.at(band.centre_nm) : 1);
+          averages ? product_integral(basis, light, band.lower_nm, band.upper_nm) / band.width_nm()
+                   : sample_in(basis, bands, b) * (times_light ? light.at(band.centre_nm) : 1);
       out[b][k] = data.scale * sample;
     }
   }
@@ -73,13 +72,11 @@ Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands
 /// Luminance of red, green and blue, for the light's white as the whole visible range shows it.
 Result<std::array<float, 3>> luminance_weights(const UpsamplerOptions& options,
                                                const MeasuredSpectrum& light) {
-  const auto visible = Bands::uniform(360, 830, 1);
-  if (!visible) return visible.error();
-  const auto space =
-      working_space(*visible, Quantity::kReflectance, options.primaries, light, options.observer);
-  if (!space) return space.error();
+  SPECTILE_ASSIGN(const auto visible, Bands::uniform(360, 830, 1));
+  SPECTILE_ASSIGN(const auto space,
+                  working_space(visible, Quantity::kReflectance, options.primaries, light, options.observer));
   std::array<float, 3> out{};
-  for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(space->rgb_to_xyz[3 + k]);
+  for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(space.rgb_to_xyz[3 + k]);
   return out;
 }
 
@@ -175,23 +172,15 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   out.bands_ = bands;
   out.options_ = options;
   out.rgb_to_xyz_ = space ? space->rgb_to_xyz : srgb_to_xyz_matrix();
-  const auto luminance = luminance_weights(options, light);
-  if (!luminance) return luminance.error();
-  out.luminance_ = *luminance;
+  SPECTILE_ASSIGN(out.luminance_, luminance_weights(options, light));
   out.lowest_ = options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
   if (method == Method::kSigmoid) {
-    auto model = sigmoid_model(bands, *space);
-    if (!model) return model.error();
-    out.sigmoid_ = *std::move(model);
+    SPECTILE_ASSIGN(out.sigmoid_, sigmoid_model(bands, *space));
     return out;
   }
-  auto basis = published ? published_basis(method, quantity, bands)
-                         : exact_basis(method, quantity, bands, options, *space);
-  if (!basis) return basis.error();
-  out.basis_ = *std::move(basis);
-  auto table = FloatBuffer::create(bands.count() * kernels::kSmitsRow);
-  if (!table) return table.error();
-  out.table_ = *std::move(table);
+  SPECTILE_ASSIGN(out.basis_, published ? published_basis(method, quantity, bands)
+                                        : exact_basis(method, quantity, bands, options, *space));
+  SPECTILE_ASSIGN(out.table_, FloatBuffer::create(bands.count() * kernels::kSmitsRow));
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
   for (std::size_t b = 0; b < bands.count(); ++b) {
     for (std::size_t k = 0; k < 7; ++k) {

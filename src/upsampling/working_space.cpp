@@ -11,16 +11,14 @@ namespace spectile {
 Result<WorkingSpace> working_space(const Bands& bands, Quantity quantity, const Chromaticities& primaries,
                                    const MeasuredSpectrum& light, Observer observer) {
   const bool emits = quantity == Quantity::kIlluminant;
-  const auto projector =
-      emits ? Projector::emissive(bands, observer) : Projector::reflective(bands, light, observer);
-  if (!projector) return projector.error();
-  const auto xyz_weights = projector->weights();
+  SPECTILE_ASSIGN(const auto projector, emits ? Projector::emissive(bands, observer)
+                                              : Projector::reflective(bands, light, observer));
+  const auto xyz_weights = projector.weights();
   WorkingSpace out;
   out.white.assign(bands.count(), 1.0);
   if (emits) {
-    auto white = light_samples(light, bands);
-    if (!white) return white.error();
-    out.white = *std::move(white);
+    SPECTILE_ASSIGN(auto white, light_samples(light, bands));
+    out.white = std::move(white);
     double luminance = 0;
     for (std::size_t b = 0; b < bands.count(); ++b) luminance += out.white[b] * xyz_weights[b][1];
     if (!(luminance > 0)) {

@@ -1,4 +1,6 @@
 // What the benchmark measures by: medians, frontiers, truths, judges; and what it refuses.
+#include "bench/methods/methods.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,16 +12,15 @@
 #include <spectile/color/color_difference.hpp>
 
 #include "bench/limits/clock.hpp"
-#include "bench/operations/operation.hpp"
 #include "bench/methods/reference_colors.hpp"
-#include "bench/methods/methods.hpp"
+#include "bench/operations/operation.hpp"
 #include "tests/support/lanes.hpp"
 
 namespace spectile::test {
 namespace {
 
 using measure::judged_by;
-using measure::kNotJudged;
+using measure::kOutOfDomain;
 using measure::Timed;
 
 TEST(Clock, TimesAreMediansOfRoundsInTurn) {
@@ -137,7 +138,7 @@ TEST(Judge, KnowsOverflowAndWhatIsNotFinite) {
   EXPECT_EQ(at(once, 1e39, kInfinity), 0);
   EXPECT_EQ(at(once, -1e39, kInfinity), kInfinity);
   EXPECT_EQ(at(once, 1e39, 3e38), kInfinity);
-  EXPECT_EQ(at(sum, 1e39, kInfinity), kNotJudged);
+  EXPECT_EQ(at(sum, 1e39, kInfinity), kOutOfDomain);
   EXPECT_EQ(at(once, kNan, kNan), 0);
   EXPECT_EQ(at(once, kNan, 0), kInfinity);
   EXPECT_EQ(at(once, kInfinity, kInfinity), 0);

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <set>
 
-#include "src/dispatch/dispatch.hpp"
 #include "bench/operations/lane_memory.hpp"
+#include "src/dispatch/dispatch.hpp"
 #include "src/reference/table.hpp"
 #include "tests/support/lanes.hpp"
 

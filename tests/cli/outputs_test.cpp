@@ -32,7 +32,7 @@ class Outputs : public testing::Test {
 constexpr const char* kReportFields[] = {
     "input",           "output",          "width",          "height",
     "bands",           "quantity",        "color_space",    "nonfinite_pixels",
-    "negative_pixels", "over_one_pixels", "limited_pixels", "bytes_written",
+    "negative_pixels", "over_one_pixels", "clamped_pixels", "bytes_written",
     "seconds",         "mpixel_per_s",    "notes"};
 
 TEST_F(Outputs, BatchGoesOnAfterABadFile) {
@@ -215,7 +215,8 @@ TEST_F(Outputs, DemoMakesThreeImages) {
 
 TEST_F(Outputs, HelpNamesTheDefaults) {
   const std::pair<const char*, std::vector<const char*>> expected[] = {
-      {"upsample", {"400:700:5", "smits", "zip:1", "half by default", "65536", "stop", "clip", "0.14", "plan.json"}},
+      {"upsample",
+       {"400:700:5", "smits", "zip:1", "half by default", "65536", "stop", "clip", "0.14", "plan.json"}},
       {"project", {"srgb", "D65 by default", "1931", "float by default", "zip:1"}},
       {"info", {"--pixel"}},
       {"verify", {"400:700:5", "smits", "reflectance"}},
@@ -251,7 +252,7 @@ TEST_F(Outputs, SameBytesWhateverRunsThem) {
     const std::string expected_back = test::file_bytes(folder_ / "back.exr");
     int way = 0;
     for (const std::string& isa : available_isas()) {
-      const std::vector<std::string> how = {
+      const std::vector<std::string> execution = {
           "--isa",     isa,
           "--threads", way % 2 == 0 ? "1" : "3",
           "--lanes",   way % 3 == 0 ? "64" : way % 3 == 1 ? "100" : "65536"};
@@ -260,7 +261,7 @@ TEST_F(Outputs, SameBytesWhateverRunsThem) {
         // Into another file, so that the spectral one stays the input.
         std::vector<std::string> all = arguments;
         all[3] = folder_ / "other.exr";
-        all.insert(all.end(), how.begin(), how.end());
+        all.insert(all.end(), execution.begin(), execution.end());
         const auto outcome = run_tool(all);
         ASSERT_EQ(outcome.exit, 0) << outcome;
         EXPECT_TRUE(test::file_bytes(folder_ / "other.exr") == bytes) << testing::PrintToString(all);

@@ -301,9 +301,9 @@ TEST(Ciede2000Batch, ThreadsAndTilesDoNotChangeBits) {
   const auto b = color_lanes(kLanes, plain_floats(20021, 13));
   auto want = *ScalarLanes::create(kLanes);
   ASSERT_TRUE(ciede2000(a.view(), b.view(), kWhite, want.span(), {1, kLanes}));
-  for (const Execution& how : {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{}}) {
+  for (const Execution& execution : {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{}}) {
     auto got = *ScalarLanes::create(kLanes);
-    ASSERT_TRUE(ciede2000(a.view(), b.view(), kWhite, got.span(), how));
+    ASSERT_TRUE(ciede2000(a.view(), b.view(), kWhite, got.span(), execution));
     EXPECT_TRUE(same_bits(got.view().data, want.view().data, kLanes));
   }
 }

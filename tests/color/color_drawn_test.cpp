@@ -184,7 +184,7 @@ RC_GTEST_PROP(ColorLaws, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
   auto found = *CoefficientLanes::create(upsampler, lanes);
   auto expanded = *SampledSpectra::create(upsampler.bands(), lanes);
   RC_ASSERT(bool(coefficients(upsampler, rgb.view(), found, drawn_execution())));
-  RC_ASSERT(bool(expand(upsampler, found, expanded.span(), Stores::kAuto, drawn_execution())));
+  RC_ASSERT(bool(expand(upsampler, found, expanded.span(), StoreHint::kAuto, drawn_execution())));
   RC_ASSERT(same_lanes(expanded, upsampled(upsampler, rgb)));
 }
 

@@ -110,14 +110,14 @@ TEST(ColorMatrix, TransformMayBeInPlaceAndRunsInAnyTiling) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) in.at(i, k) = values[3 * i + k];
   }
-  for (const Execution& how :
+  for (const Execution& execution :
        {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536}, Execution{}}) {
     auto out = *ColorLanes::create(kLanes);
-    ASSERT_TRUE(transform(swap, in.view(), out.span(), how));
+    ASSERT_TRUE(transform(swap, in.view(), out.span(), execution));
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_TRUE(same_bits(out.view().c[k], in.view().c[(k + 1) % 3], kLanes));
-    ASSERT_TRUE(transform(swap, out.view(), out.span(), how));
-    ASSERT_TRUE(transform(swap, out.view(), out.span(), how));
+    ASSERT_TRUE(transform(swap, out.view(), out.span(), execution));
+    ASSERT_TRUE(transform(swap, out.view(), out.span(), execution));
     for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(same_bits(out.view().c[k], in.view().c[k], kLanes));
   }
 }

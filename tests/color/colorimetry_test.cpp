@@ -233,12 +233,12 @@ TEST(Project, ThreadsAndTilesDoNotChangeBits) {
   const auto projector = *Projector::emissive(bands);
   auto want = *ColorLanes::create(kLanes);
   ASSERT_TRUE(project(projector, spectra.view(), want.span(), {1, kLanes}));
-  for (const Execution& how :
+  for (const Execution& execution :
        {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536}, Execution{}}) {
     auto got = *ColorLanes::create(kLanes);
     auto y = *ScalarLanes::create(kLanes);
-    ASSERT_TRUE(project(projector, spectra.view(), got.span(), how));
-    ASSERT_TRUE(luminance(projector, spectra.view(), y.span(), how));
+    ASSERT_TRUE(project(projector, spectra.view(), got.span(), execution));
+    ASSERT_TRUE(luminance(projector, spectra.view(), y.span(), execution));
     for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(same_bits(got.view().c[k], want.view().c[k], kLanes));
     EXPECT_TRUE(same_bits(y.view().data, want.view().c[1], kLanes));
   }

@@ -1,6 +1,6 @@
 // Sensors: exposure, white balance, projection over bands and at wavelengths, and the fit to XYZ.
-#include <spectile/spectra/named_spectra.hpp>
 #include <spectile/color/sensor.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
 #include "tests/support/lanes.hpp"
 

@@ -1,5 +1,7 @@
 // The published tables against what is printed about them: sums, peaks, smoothness, chromaticities, spot
 // values.
+#include "src/data/tables.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +11,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include "src/data/tables.hpp"
 
 namespace spectile::data {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <spectile/lanes/arithmetic.hpp>
 #include <spectile/isa.hpp>
+#include <spectile/lanes/arithmetic.hpp>
 
 #include "src/dispatch/dispatch.hpp"
 #include "tests/kernels/kernel_fixture.hpp"

@@ -10,23 +10,23 @@ namespace {
 constexpr int kWidth = 32;
 constexpr int kHeight = 24;
 constexpr std::uint64_t kPixels = std::uint64_t{kWidth} * kHeight;
-constexpr std::uint64_t kMostSamples = 256;
+constexpr std::uint64_t kMaxSamples = 256;
 constexpr std::size_t kWavelengths = 4;
 
-/// Mean squares over all pixels of the luminance's error, for 1, 2, 4, ... kMostSamples samples a pixel.
+/// Mean squares over all pixels of the luminance's error, for 1, 2, 4, ... kMaxSamples samples a pixel.
 std::vector<double> square_errors(const char* name, WavelengthSampling density) {
   const auto scene = *ProceduralScene::named(name);
   FilmOptions options;
   options.width = kWidth;
   options.height = kHeight;
   auto film = *Film::create(options);
-  auto batch = *SceneBatch::create(kPixels * kMostSamples / 2, kWavelengths, true);
+  auto batch = *SceneBatch::create(kPixels * kMaxSamples / 2, kWavelengths, true);
   SceneSampling sampling;
   sampling.wavelengths = kWavelengths;
   sampling.density = density;
   std::vector<double> out;
   std::uint64_t before = 0;
-  for (std::uint64_t now = 1; now <= kMostSamples; now *= 2) {
+  for (std::uint64_t now = 1; now <= kMaxSamples; now *= 2) {
     // Samples of a seed of their own double what is there.
     sampling.samples_per_pixel = now - before;
     sampling.seed = now;

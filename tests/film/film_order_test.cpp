@@ -24,12 +24,12 @@ FilmOptions full_film(SamplePlacement placement) {
 }
 
 /// Puts the fastest table back in force.
-class Forced {
+class ScopedIsa {
  public:
-  explicit Forced(const char* name) { EXPECT_TRUE(dispatch::force(name)); }
-  Forced(const Forced&) = delete;
-  Forced& operator=(const Forced&) = delete;
-  ~Forced() { EXPECT_TRUE(dispatch::force("")); }
+  explicit ScopedIsa(const char* name) { EXPECT_TRUE(dispatch::force(name)); }
+  ScopedIsa(const ScopedIsa&) = delete;
+  ScopedIsa& operator=(const ScopedIsa&) = delete;
+  ~ScopedIsa() { EXPECT_TRUE(dispatch::force("")); }
 };
 
 /// Adds all samples in a random order, in batches of random sizes, from several threads into several films on
@@ -45,7 +45,7 @@ Film shuffled(const FilmOptions& o, const FilmSamples& samples, std::uint32_t se
   for (std::size_t i = 0; i < shards; ++i) films.push_back(*Film::create(o));
   const auto tables = dispatch::available();
   for (std::size_t i = 0; i < shards; ++i) {
-    const Forced table(tables[random() % tables.size()]->name);
+    const ScopedIsa table(tables[random() % tables.size()]->name);
     const std::size_t first = samples.size() * i / shards;
     const std::size_t end = samples.size() * (i + 1) / shards;
     const std::size_t threads = 1 + random() % 8;

@@ -37,7 +37,7 @@ class GamutKernels : public KernelTest {
     Limited out{Floats(std::span(rgb.data(), rgb.size())),
                 std::vector<std::uint64_t>(n / kLanes, 0x5A5A5A5A5A5A5A5AU)};
     float* const planes[3] = {out.rgb.data(), out.rgb.data() + n, out.rgb.data() + 2 * n};
-    t.limit_gamut(planes, weights, low, high, out.moved.data(), n);
+    t.gamut_clip(planes, weights, low, high, out.moved.data(), n);
     return out;
   }
 };

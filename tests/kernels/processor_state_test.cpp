@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "src/dispatch/dispatch.hpp"
 #include "bench/operations/lane_memory.hpp"
 #include "bench/operations/operation.hpp"
+#include "src/dispatch/dispatch.hpp"
 #include "tests/support/lanes.hpp"
 
 #if defined(__x86_64__)

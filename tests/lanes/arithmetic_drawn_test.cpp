@@ -16,18 +16,19 @@ Bands few_bands() {
 template <class Operation>
 SampledSpectra result_of(const SampledSpectra& a, Operation operation) {
   auto out = *SampledSpectra::create(a.bands(), a.lanes());
-  const Execution how = drawn_execution();
-  RC_ASSERT(bool(operation(out.span(), how)));
+  const Execution execution = drawn_execution();
+  RC_ASSERT(bool(operation(out.span(), execution)));
   return out;
 }
 SampledSpectra unary(Unary f, const SampledSpectra& a) {
-  return result_of(a, [&](auto out, const auto& how) { return f(a.view(), out, how); });
+  return result_of(a, [&](auto out, const auto& execution) { return f(a.view(), out, execution); });
 }
 SampledSpectra binary(Binary f, const SampledSpectra& a, const SampledSpectra& b) {
-  return result_of(a, [&](auto out, const auto& how) { return f(a.view(), b.view(), out, how); });
+  return result_of(a, [&](auto out, const auto& execution) { return f(a.view(), b.view(), out, execution); });
 }
 SampledSpectra power(const SampledSpectra& a, float exponent) {
-  return result_of(a, [&](auto out, const auto& how) { return pow(a.view(), exponent, out, how); });
+  return result_of(a,
+                   [&](auto out, const auto& execution) { return pow(a.view(), exponent, out, execution); });
 }
 
 /// Steps of float from a to b; one step over zero.
@@ -73,12 +74,15 @@ RC_GTEST_PROP(Laws, PermutedLanesGivePermutedResults, ()) {
     }
     out.push_back(power(x[0], number));
     const auto view = [&](std::size_t i) { return x[i].view(); };
-    out.push_back(result_of(x[0], [&](auto to, auto& how) { return scale(view(0), number, to, how); }));
-    out.push_back(result_of(
-        x[0], [&](auto to, auto& how) { return multiply_add(view(0), view(1), view(2), to, how); }));
     out.push_back(
-        result_of(x[0], [&](auto to, auto& how) { return lerp(view(0), view(1), number, to, how); }));
-    out.push_back(result_of(x[0], [&](auto to, auto& how) { return clamp(view(0), -1, 1, to, how); }));
+        result_of(x[0], [&](auto to, auto& execution) { return scale(view(0), number, to, execution); }));
+    out.push_back(result_of(x[0], [&](auto to, auto& execution) {
+      return multiply_add(view(0), view(1), view(2), to, execution);
+    }));
+    out.push_back(result_of(
+        x[0], [&](auto to, auto& execution) { return lerp(view(0), view(1), number, to, execution); }));
+    out.push_back(
+        result_of(x[0], [&](auto to, auto& execution) { return clamp(view(0), -1, 1, to, execution); }));
     return out;
   };
   const auto straight = all(in);
@@ -186,11 +190,12 @@ RC_GTEST_PROP(Laws, SumsProductsAndMixturesRiseWithoutException, ()) {
   const auto truth = [](double v) { return v; };
   RC_ASSERT(falls(x, binary(&add, x.low, other), binary(&add, x.high, other), truth).first == 0);
   const auto mixed = [&](const SampledSpectra& a) {
-    return result_of(a, [&](auto to, auto& how) { return lerp(a.view(), other.view(), t, to, how); });
+    return result_of(
+        a, [&](auto to, auto& execution) { return lerp(a.view(), other.view(), t, to, execution); });
   };
   RC_ASSERT(falls(x, mixed(x.low), mixed(x.high), truth).first == 0);
   const auto scaled = [&](const SampledSpectra& a) {
-    return result_of(a, [&](auto to, auto& how) { return scale(a.view(), t, to, how); });
+    return result_of(a, [&](auto to, auto& execution) { return scale(a.view(), t, to, execution); });
   };
   RC_ASSERT(falls(x, scaled(x.low), scaled(x.high), truth).first == 0);
 }
@@ -206,7 +211,8 @@ RC_GTEST_PROP(Laws, PowersAgreeWithProductsQuotientsAndRoots, ()) {
   RC_ASSERT(most_steps(power(a, 2), binary(&multiply, a, a)) <= 1);
   RC_ASSERT(most_steps(power(a, -1), binary(&divide, one, a)) <= 1);
   // Minus infinity has a power, of +infinity, but no root.
-  const auto magnitude = result_of(a, [&](auto to, auto& how) { return clamp(a.view(), 0, kInf, to, how); });
+  const auto magnitude =
+      result_of(a, [&](auto to, auto& execution) { return clamp(a.view(), 0, kInf, to, execution); });
   RC_ASSERT(most_steps(power(magnitude, 0.5F), unary(&sqrt, magnitude)) <= 1);
 }
 

@@ -110,12 +110,13 @@ TEST(Arithmetic, ThreadsAndTilesDoNotChangeBits) {
   for (const Operation& op : operations()) {
     auto want = *SampledSpectra::create(bands, kLanes);
     ASSERT_TRUE(op.run(a.view(), b.view(), c.view(), want.span(), {1, kLanes}));
-    for (const Execution& how : {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536},
-                                 Execution{3, 4096}, Execution{0, 1}, Execution{}}) {
+    for (const Execution& execution :
+         {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536}, Execution{3, 4096},
+          Execution{0, 1}, Execution{}}) {
       auto out = *SampledSpectra::create(bands, kLanes);
-      ASSERT_TRUE(op.run(a.view(), b.view(), c.view(), out.span(), how));
+      ASSERT_TRUE(op.run(a.view(), b.view(), c.view(), out.span(), execution));
       EXPECT_TRUE(same_bits(out.view().data, want.view().data, want.view().floats()))
-          << op.name << " with " << how.threads << " threads, tiles of " << how.tile_lanes;
+          << op.name << " with " << execution.threads << " threads, tiles of " << execution.tile_lanes;
     }
   }
 }

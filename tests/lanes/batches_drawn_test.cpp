@@ -6,8 +6,8 @@
 
 #include <cstdlib>
 #include <numeric>
-#include <spectile/lanes/arithmetic.hpp>
 #include <spectile/color/colorimetry.hpp>
+#include <spectile/lanes/arithmetic.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
 #include "src/dispatch/dispatch.hpp"

@@ -171,18 +171,18 @@ TEST(Lanes, ThreadsAndTilesDoNotChangeBits) {
   const auto b = batch_from(bands, kLanes, wild_floats(10007, 1));
   using Fold = Result<void> (*)(SampledSpectraView, LanesSpan, const Execution&);
   const Execution one{1, kLanes};
-  for (const Execution& how :
+  for (const Execution& execution :
        {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536}, Execution{}}) {
     for (const Fold fold : {&minimum, &maximum, &average}) {
       auto got = *ScalarLanes::create(kLanes);
       auto want = *ScalarLanes::create(kLanes);
-      ASSERT_TRUE(fold(a.view(), got.span(), how));
+      ASSERT_TRUE(fold(a.view(), got.span(), execution));
       ASSERT_TRUE(fold(a.view(), want.span(), one));
       EXPECT_TRUE(same_bits(got.view().data, want.view().data, kLanes));
     }
-    EXPECT_EQ(*is_black(a.view(), how), *is_black(a.view(), one));
-    EXPECT_EQ(*has_nan(a.view(), how), *has_nan(a.view(), one));
-    EXPECT_EQ(*equal_lanes(a.view(), b.view(), how), *equal_lanes(a.view(), b.view(), one));
+    EXPECT_EQ(*is_black(a.view(), execution), *is_black(a.view(), one));
+    EXPECT_EQ(*has_nan(a.view(), execution), *has_nan(a.view(), one));
+    EXPECT_EQ(*equal_lanes(a.view(), b.view(), execution), *equal_lanes(a.view(), b.view(), one));
   }
 }
 

@@ -7,7 +7,7 @@
 #include <concepts>
 #include <cstdlib>
 #include <limits>
-#include <spectile/radiometry/units.hpp>
+#include <spectile/units.hpp>
 #include <type_traits>
 
 namespace spectile::test {

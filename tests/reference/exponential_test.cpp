@@ -146,7 +146,7 @@ TEST(Exponential, PowIsWithinItsBound) {
         7.0F, 1e-3F,       37.5F, -37.5F, 1e-8F, 1000.0F,     1e6F, 16777215.0F, 0.999999F, 1.0F}) {
     EXPECT_LE(worst_pow(y, 0, 0xFFFFFFFFU, 65521), kBound) << y;  // a prime
     EXPECT_LE(worst_pow(y, bits(0.99F), bits(1.01F), 11), kBound) << y;
-    EXPECT_LE(worst_pow(y, 0, bits(kLeastNormal), 1021), kBound) << y;
+    EXPECT_LE(worst_pow(y, 0, bits(kSmallestNormal), 1021), kBound) << y;
   }
 }
 

@@ -1,7 +1,7 @@
 // Ten thousand irregular tables: interpolation and averages against an oracle that clips straight pieces in
 // long double.
-#include <spectile/spectra/spectrum.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/spectra/spectrum.hpp>
 
 #include "tests/support/lanes.hpp"
 

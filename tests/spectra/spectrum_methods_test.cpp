@@ -2,9 +2,9 @@
 // calls.
 #include <cmath>
 #include <numbers>
+#include <spectile/lanes/wavelengths.hpp>
 #include <spectile/radiometry/radiometry.hpp>
 #include <spectile/spectra/spectrum.hpp>
-#include <spectile/lanes/wavelengths.hpp>
 
 #include "tests/support/lanes.hpp"
 
@@ -129,8 +129,8 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
       for (const std::string& isa : available_isas()) {
         for (const int threads : {1, 3}) {
           ASSERT_TRUE(force_isa(isa));
-          Execution how;
-          how.threads = threads;
+          Execution execution;
+          execution.threads = threads;
           std::mt19937 random(static_cast<std::uint32_t>(100 * lanes + count));
           std::uniform_real_distribution<float> unit(0, 1);
           auto u = *ScalarLanes::create(lanes);
@@ -141,7 +141,7 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
           auto radiance = *WavelengthLanes::create(lanes, count);
           auto color = *ColorLanes::create(lanes);
           for (const auto sampling : {WavelengthSampling::kUniform, WavelengthSampling::kVisible}) {
-            ASSERT_TRUE(sample_wavelengths(sampling, u.view(), w, 360, 830, how));
+            ASSERT_TRUE(sample_wavelengths(sampling, u.view(), w, 360, 830, execution));
             for (std::size_t k = 0; k < count; ++k) {
               for (std::size_t i = 0; i < lanes; ++i) {
                 got.push_back(w.lambda_nm.at(i, k));
@@ -151,8 +151,8 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
               }
             }
             for (const Spectrum& s : spectra) {
-              ASSERT_TRUE(sample(s, w.lambda_nm.view(), radiance.span(), how));
-              ASSERT_TRUE(project(curves, radiance.view(), w, color.span(), how));
+              ASSERT_TRUE(sample(s, w.lambda_nm.view(), radiance.span(), execution));
+              ASSERT_TRUE(project(curves, radiance.view(), w, color.span(), execution));
               for (std::size_t i = 0; i < lanes; ++i) {
                 for (std::size_t k = 0; k < count; ++k) got.push_back(radiance.at(i, k));
                 for (std::size_t c = 0; c < 3; ++c) got.push_back(color.at(i, c));

@@ -1,11 +1,11 @@
 // Spectra, samplers and directions at the ends of what they promise.
 #include <cmath>
 #include <numbers>
+#include <spectile/lanes/wavelengths.hpp>
 #include <spectile/radiometry/directions.hpp>
 #include <spectile/radiometry/irradiance.hpp>
 #include <spectile/radiometry/radiometry.hpp>
 #include <spectile/spectra/spectrum.hpp>
-#include <spectile/lanes/wavelengths.hpp>
 
 #include "tests/support/lanes.hpp"
 

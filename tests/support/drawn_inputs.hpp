@@ -156,7 +156,7 @@ inline Method drawn_exact() {
 
 inline SampledSpectra upsampled(const Upsampler& upsampler, const ColorLanes& rgb) {
   auto out = *SampledSpectra::create(upsampler.bands(), rgb.lanes());
-  RC_ASSERT(bool(upsample_srgb(upsampler, rgb.view(), out.span(), Stores::kAuto, drawn_execution())));
+  RC_ASSERT(bool(upsample_srgb(upsampler, rgb.view(), out.span(), StoreHint::kAuto, drawn_execution())));
   return out;
 }
 inline ColorLanes projected(const Projector& projector, const SampledSpectra& spectra) {

@@ -21,7 +21,7 @@ namespace spectile::test {
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kInf = std::numeric_limits<float>::infinity();
 inline constexpr float kTiny = std::numeric_limits<float>::denorm_min();
-inline constexpr float kLeastNormal = std::numeric_limits<float>::min();
+inline constexpr float kSmallestNormal = std::numeric_limits<float>::min();
 inline constexpr float kMost = std::numeric_limits<float>::max();
 
 /// Lane counts around the vector widths and the block, and one of many blocks.
@@ -29,12 +29,41 @@ inline constexpr std::size_t kSizes[] = {1, 15, 16, 17, 63, 64, 65, 4099};
 
 /// Values at which float, half and colour arithmetic change their ways.
 inline const std::vector<float>& special_values() {
-  static const std::vector<float> values = {
-      0.0F,     -0.0F,           kTiny,    -kTiny,     3 * kTiny,   kLeastNormal, -kLeastNormal,
-      kMost,    -kMost,          kInf,     -kInf,      kNan,        1.0F,         1.0F + 0x1p-23F,
-      -1.0F,    1.0F - 0x1p-24F, 0.5F,     0.25F,      2.0F,        65504.0F,     65519.99F,
-      65520.0F, -65504.0F,       1e-8F,    0x1p-24F,   0x1p-25F,    0x1p-14F,     1e30F,
-      -1e30F,   88.72284F,       -103.98F, 0.0031308F, 16777216.0F, -3.0F,        1e-38F};
+  static const std::vector<float> values = {0.0F,
+                                            -0.0F,
+                                            kTiny,
+                                            -kTiny,
+                                            3 * kTiny,
+                                            kSmallestNormal,
+                                            -kSmallestNormal,
+                                            kMost,
+                                            -kMost,
+                                            kInf,
+                                            -kInf,
+                                            kNan,
+                                            1.0F,
+                                            1.0F + 0x1p-23F,
+                                            -1.0F,
+                                            1.0F - 0x1p-24F,
+                                            0.5F,
+                                            0.25F,
+                                            2.0F,
+                                            65504.0F,
+                                            65519.99F,
+                                            65520.0F,
+                                            -65504.0F,
+                                            1e-8F,
+                                            0x1p-24F,
+                                            0x1p-25F,
+                                            0x1p-14F,
+                                            1e30F,
+                                            -1e30F,
+                                            88.72284F,
+                                            -103.98F,
+                                            0.0031308F,
+                                            16777216.0F,
+                                            -3.0F,
+                                            1e-38F};
   return values;
 }
 

@@ -43,7 +43,7 @@ class ColorTables : public testing::Test {
     line.load(from);
     float* const rgb[3] = {line.row(0), line.row(1), line.row(2)};
     std::uint64_t unsolved[kLine / kLanesPerBlock] = {};
-    rows::limit_gamut(kernels_, upsampler_, rgb, OutOfGamut::kClip, kLine, line.outside.data());
+    rows::gamut_clip(kernels_, upsampler_, rgb, OutOfGamut::kClip, kLine, line.outside.data());
     rows::solve(kernels_, upsampler_, rgb, line.out(), unsolved, kLine);
     outside = line.outside;
     return line.result();

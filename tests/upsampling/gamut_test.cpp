@@ -22,8 +22,8 @@ ColorLanes copy_of(const ColorLanes& rgb) {
 }
 
 GamutReport limit(const Upsampler& upsampler, ColorLanes& rgb, OutOfGamut policy = OutOfGamut::kClip,
-                  const Execution& how = {}) {
-  const auto report = limit_gamut(upsampler, rgb.span(), policy, how);
+                  const Execution& execution = {}) {
+  const auto report = gamut_clip(upsampler, rgb.span(), policy, execution);
   EXPECT_TRUE(report);
   return report ? *report : GamutReport{};
 }
@@ -284,7 +284,7 @@ TEST(Gamut, SamplesThatAreNotAlignedAreAnError) {
   ColorSpan span = rgb.span();
   span.c[1] += 1;
   span.lanes = 64;
-  EXPECT_EQ(code_of(limit_gamut(upsampler, span)), code(ErrorCode::kBadArgument));
+  EXPECT_EQ(code_of(gamut_clip(upsampler, span)), code(ErrorCode::kBadArgument));
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ TEST_P(Relighting, DoesNotDependOnThreadsOrTiles) {
   const ColorLanes rgb = colors(4099, -0.2F, 1.3F, 3);
   auto once = *ColorLanes::create(4099);
   ASSERT_TRUE(relight(relighter, rgb.view(), once.span(), {1, 1 << 20}));
-  for (const Execution how : {Execution{2, 64}, Execution{3, 640}, Execution{1, 1}}) {
+  for (const Execution execution : {Execution{2, 64}, Execution{3, 640}, Execution{1, 1}}) {
     auto again = *ColorLanes::create(4099);
-    ASSERT_TRUE(relight(relighter, rgb.view(), again.span(), how));
+    ASSERT_TRUE(relight(relighter, rgb.view(), again.span(), execution));
     for (std::size_t i = 0; i < 4099; ++i) {
       for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(once.at(i, k), again.at(i, k));
     }

@@ -51,9 +51,9 @@ inline ColorLanes random_colours(std::size_t lanes, std::uint32_t seed, float lo
 }
 
 inline SampledSpectra spectra_of(const Upsampler& upsampler, const ColorLanes& rgb,
-                                 const Execution& how = {}) {
+                                 const Execution& execution = {}) {
   auto spectra = *SampledSpectra::create(upsampler.bands(), rgb.lanes());
-  const auto done = upsample_srgb(upsampler, rgb.view(), spectra.span(), Stores::kAuto, how);
+  const auto done = upsample_srgb(upsampler, rgb.view(), spectra.span(), StoreHint::kAuto, execution);
   EXPECT_TRUE(done);
   return spectra;
 }

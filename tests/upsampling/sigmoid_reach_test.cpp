@@ -1,7 +1,7 @@
 // The way from grey to a colour: what the quick search misses is found, and what no sigmoid has ends where
 // the sigmoids end.
-#include "src/upsampling/sigmoid_model.hpp"
 #include "src/reference/sigmoid.hpp"
+#include "src/upsampling/sigmoid_model.hpp"
 #include "tests/kernels/kernel_fixture.hpp"
 #include "tests/upsampling/round_trip.hpp"
 
@@ -234,8 +234,8 @@ TEST(SigmoidReach, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
     auto rgb = cube_grid(9);
     const std::uint64_t before = unsolved(upsampler, rgb);
     EXPECT_GE(before, 10U);
-    EXPECT_EQ(limit_gamut(upsampler, rgb.span(), OutOfGamut::kKeep)->outside, before);
-    EXPECT_EQ(limit_gamut(upsampler, rgb.span())->outside, before);
+    EXPECT_EQ(gamut_clip(upsampler, rgb.span(), OutOfGamut::kKeep)->outside, before);
+    EXPECT_EQ(gamut_clip(upsampler, rgb.span())->outside, before);
     EXPECT_EQ(unsolved(upsampler, rgb), 0U);
   }
 }
@@ -244,7 +244,7 @@ TEST(SigmoidReach, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
   const auto upsampler = sigmoid("400:700:5", "acescg");
   const auto rgb = cube_grid(9);
   auto moved = cube_grid(9);
-  ASSERT_TRUE(limit_gamut(upsampler, moved.span()));
+  ASSERT_TRUE(gamut_clip(upsampler, moved.span()));
   const auto back = returned(upsampler, rgb);
   for (std::size_t i = 0; i < rgb.lanes(); ++i) ASSERT_LE(largest_difference(back[i], moved, i), 2e-3) << i;
 }

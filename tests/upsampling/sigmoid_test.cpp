@@ -16,9 +16,9 @@ const Upsampler& sigmoid() {
 }
 
 CoefficientLanes coefficients_of(const Upsampler& upsampler, const ColorLanes& rgb,
-                                 const Execution& how = {}) {
+                                 const Execution& execution = {}) {
   auto out = *CoefficientLanes::create(upsampler, rgb.lanes());
-  EXPECT_TRUE(coefficients(upsampler, rgb.view(), out, how));
+  EXPECT_TRUE(coefficients(upsampler, rgb.view(), out, execution));
   return out;
 }
 
@@ -238,16 +238,16 @@ TEST(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
   const auto coefficients_want = coefficients_of(sigmoid(), rgb, {1, 16384});
   for (const int threads : {1, 2, 5}) {
     for (const std::size_t tile : {1, 64, 65, 500, 1000, 100000}) {
-      const Execution how = {threads, tile};
-      EXPECT_TRUE(same_lanes(spectra_of(sigmoid(), rgb, how), want)) << threads << " " << tile;
-      const auto c = coefficients_of(sigmoid(), rgb, how);
+      const Execution execution = {threads, tile};
+      EXPECT_TRUE(same_lanes(spectra_of(sigmoid(), rgb, execution), want)) << threads << " " << tile;
+      const auto c = coefficients_of(sigmoid(), rgb, execution);
       EXPECT_TRUE(same_bits(c.c.view().c[0], coefficients_want.c.view().c[0], 4099));
       EXPECT_TRUE(same_bits(c.c.view().c[2], coefficients_want.c.view().c[2], 4099));
       EXPECT_EQ(c.unsolved.outside, coefficients_want.unsolved.outside);
       EXPECT_EQ(c.unsolved.first, coefficients_want.unsolved.first);
     }
   }
-  for (const Stores stores : {Stores::kCached, Stores::kStreaming}) {
+  for (const StoreHint stores : {StoreHint::kCached, StoreHint::kStreaming}) {
     auto expanded = *SampledSpectra::create(Bands(), rgb.lanes());
     ASSERT_TRUE(expand(sigmoid(), coefficients_want, expanded.span(), stores));
     EXPECT_TRUE(same_lanes(expanded, want));

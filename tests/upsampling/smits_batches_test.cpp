@@ -138,15 +138,15 @@ TEST(SmitsBatches, ThreadsTilesAndStoresDoNotChangeBits) {
       const auto rgb = colours(kLanes, wild_floats(100003, 8));
       auto want = *SampledSpectra::create(bands, kLanes);
       auto want_xyz = *SampledSpectra::create(bands, kLanes);
-      ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), Stores::kCached, {1, kLanes}));
-      ASSERT_TRUE(upsample_xyz(upsampler, rgb.view(), want_xyz.span(), Stores::kCached, {1, kLanes}));
-      for (const Stores stores : {Stores::kAuto, Stores::kCached, Stores::kStreaming}) {
-        for (const Execution& how :
+      ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), StoreHint::kCached, {1, kLanes}));
+      ASSERT_TRUE(upsample_xyz(upsampler, rgb.view(), want_xyz.span(), StoreHint::kCached, {1, kLanes}));
+      for (const StoreHint stores : {StoreHint::kAuto, StoreHint::kCached, StoreHint::kStreaming}) {
+        for (const Execution& execution :
              {Execution{1, 64}, Execution{2, 64}, Execution{3, 100}, Execution{2, 65536}, Execution{}}) {
           auto got = *SampledSpectra::create(bands, kLanes);
-          ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), got.span(), stores, how));
+          ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), got.span(), stores, execution));
           ASSERT_TRUE(same_bits(got.view().data, want.view().data, want.view().floats()));
-          ASSERT_TRUE(upsample_xyz(upsampler, rgb.view(), got.span(), stores, how));
+          ASSERT_TRUE(upsample_xyz(upsampler, rgb.view(), got.span(), stores, execution));
           ASSERT_TRUE(same_bits(got.view().data, want_xyz.view().data, want.view().floats()));
         }
       }
@@ -160,8 +160,8 @@ TEST(SmitsBatches, BatchesBeyondTheCachesHaveTheSameBits) {
   const auto rgb = colours(kLanes, plain_floats(900007, 9, -0.1F, 1.0F));
   auto want = *SampledSpectra::create(Bands(), kLanes);
   auto got = *SampledSpectra::create(Bands(), kLanes);
-  ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), Stores::kCached));
-  ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), got.span(), Stores::kAuto));
+  ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), StoreHint::kCached));
+  ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), got.span(), StoreHint::kAuto));
   EXPECT_TRUE(same_bits(got.view().data, want.view().data, want.view().floats()));
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
-#include <spectile/result.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
 
 namespace spectile {
 
@@ -47,6 +47,6 @@ double ciede2000(const Lab& reference, const Lab& sample);
 /// do not start at a multiple of 64 bytes.
 /// Source: as for the two functions above.
 Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double, 3>& white,
-                       LanesSpan difference, const Execution& how = {});
+                       LanesSpan difference, const Execution& execution = {});
 
 }  // namespace spectile

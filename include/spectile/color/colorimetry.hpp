@@ -3,11 +3,11 @@
 
 #include <array>
 #include <span>
-#include <spectile/spectra/bands.hpp>
-#include <spectile/spectra/measured_spectrum.hpp>
-#include <spectile/result.hpp>
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/spectra/measured_spectrum.hpp>
 #include <vector>
 
 namespace spectile {
@@ -68,12 +68,12 @@ class Projector {
 /// magnitudes; NaN and infinities go through. Errors: kBandsMismatch when the projector was built for other
 /// bands; kSizeMismatch.
 Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
-                     const Execution& how = {});
+                     const Execution& execution = {});
 
 /// Luminance Y alone, for a third of the work; the same bits as the Y of project().
 /// Shapes, numbers, errors as for project().
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
-                       const Execution& how = {});
+                       const Execution& execution = {});
 
 /// Linear sRGB to CIE XYZ (1931). White assumed: D65 at chromaticity (0.3127, 0.3290), so RGB 1, 1, 1 is
 /// XYZ 0.9505, 1, 1.0891; no chromatic adaptation. Source: primaries and white of IEC 61966-2-1:1999.
@@ -82,11 +82,11 @@ const Matrix3& srgb_to_xyz_matrix();
 const Matrix3& xyz_to_srgb_matrix();
 
 /// out = matrix applied to each lane. Errors: kSizeMismatch.
-Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& how = {});
+Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& execution = {});
 /// XYZ to linear sRGB. White assumed: D65 (0.3127, 0.3290); no adaptation; values outside the gamut stay as
 /// they are.
-Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& how = {});
+Result<void> xyz_to_srgb(ColorView xyz, ColorSpan rgb, const Execution& execution = {});
 /// Linear sRGB to XYZ. White assumed: D65 (0.3127, 0.3290); no adaptation.
-Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& how = {});
+Result<void> srgb_to_xyz(ColorView rgb, ColorSpan xyz, const Execution& execution = {});
 
 }  // namespace spectile

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/spectra/spectrum.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/spectra/spectrum.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -68,7 +68,7 @@ class SensorProjector {
 
 /// Projects spectra to a sensor's RGB. Shapes, numbers and errors as for the projection to XYZ.
 Result<void> project(const SensorProjector& projector, SampledSpectraView spectra, ColorSpan rgb,
-                     const Execution& how = {});
+                     const Execution& execution = {});
 
 /// A matrix from a sensor's RGB to XYZ, and what it misses by.
 struct SensorFit {

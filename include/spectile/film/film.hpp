@@ -14,12 +14,12 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/film/pixel_filter.hpp>
-#include <spectile/result.hpp>
-#include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/color/sensor.hpp>
+#include <spectile/film/pixel_filter.hpp>
+#include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <string>
 #include <vector>
 
@@ -149,8 +149,8 @@ class Film {
   /// Errors: kBadArgument for the other kind of input, kSizeMismatch for rows or spans of other lengths,
   /// kBandsMismatch for other than the film's bands, kOutOfMemory (then part of the batch may be in),
   /// kUnavailable once a pixel's sum has gone beyond what it can hold.
-  Result<void> add(const WavelengthSamples& samples, const Execution& how = {1});
-  Result<void> add(const BandSamples& samples, const Execution& how = {1});
+  Result<void> add(const WavelengthSamples& samples, const Execution& execution = {1});
+  Result<void> add(const BandSamples& samples, const Execution& execution = {1});
 
   /// Adds another film's sums to this one's: the very bits of one film fed with both's samples.
   /// Errors: kBadArgument where an option differs, saying which, and when both are one film; kOutOfMemory.
@@ -202,7 +202,7 @@ class FilmDevelopment {
 
   /// Develops the tiles that have changed since the last update. A pixel is its sums over the sum of its
   /// weights, in double, rounded once to float; 0 where the weights sum to 0.
-  Result<DevelopStats> update(const Execution& how = {});
+  Result<DevelopStats> update(const Execution& execution = {});
 
   std::size_t planes() const noexcept { return planes_; }
   int width() const noexcept { return window_.width(); }

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/result.hpp>
 #include <spectile/color/rgb_space.hpp>
+#include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 #include <string_view>
@@ -186,7 +186,7 @@ struct ImageReport {
   std::uint64_t negative_pixels = 0;      ///< with a component below 0 (of the input, before clipping)
   std::uint64_t over_one_pixels = 0;      ///< with a component above 1
   std::uint64_t out_of_gamut_pixels = 0;  ///< that the method cannot make, before they were moved
-  std::uint64_t limited_pixels = 0;       ///< with a sample beyond the largest half, written as that
+  std::uint64_t clamped_pixels = 0;       ///< with a sample beyond the largest half, written as that
   std::uint64_t bytes_written = 0;
   double seconds = 0;
   SkipStats skipped;

@@ -14,8 +14,8 @@ namespace spectile {
 /// A plan as JSON text: {"wavelengths_nm": [..], "sensor": {"x": [..], "y": [..], "z": [..]}, "illuminants":
 /// [{"name": "D65", "emission": [..]}], "observer": "1931", "promise": {..}}. A light whose name
 /// illuminant() knows, with that spectrum, has no spectrum of its own there; others have "spectrum":
-/// {"wavelengths_nm": [..], "values": [..]}. Plans of bands have "bands_nm": [[lower, upper], ..] too. Numbers
-/// come back to the bit. Lines are indented, and end in a line break, where it is not to be one line.
+/// {"wavelengths_nm": [..], "values": [..]}. Plans of bands have "bands_nm": [[lower, upper], ..] too.
+/// Numbers come back to the bit. Lines are indented, and end in a line break, where it is not to be one line.
 std::string plan_to_json(const Plan& plan, bool one_line = false);
 
 /// Reads what plan_to_json() writes; what it does not know is passed over, promises may be missing.

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <spectile/spectra/bands.hpp>
-#include <spectile/result.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 

@@ -7,68 +7,70 @@
 
 #include <cstdint>
 #include <span>
-#include <spectile/result.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
 #include <vector>
 
 namespace spectile {
 
 /// out = a + b.
 Result<void> add(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                 const Execution& how = {});
+                 const Execution& execution = {});
 /// out = a - b.
 Result<void> subtract(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                      const Execution& how = {});
+                      const Execution& execution = {});
 /// out = a * b.
 Result<void> multiply(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                      const Execution& how = {});
+                      const Execution& execution = {});
 /// out = a / b.
 Result<void> divide(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                    const Execution& how = {});
+                    const Execution& execution = {});
 /// out = b is 0 ? 0 : a / b; a NaN divisor gives NaN.
 Result<void> divide_or_zero(SampledSpectraView a, SampledSpectraView b, SampledSpectraSpan out,
-                            const Execution& how = {});
+                            const Execution& execution = {});
 /// out = a with every sign flipped, zeros and NaN included.
-Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Execution& how = {});
+Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = a * factor.
-Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, const Execution& how = {});
+Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out,
+                   const Execution& execution = {});
 /// out = (a * b) + c, two roundings.
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
-                          SampledSpectraSpan out, const Execution& how = {});
+                          SampledSpectraSpan out, const Execution& execution = {});
 /// out = (1 - t) * a + t * b; exactly a at t = 0 and b at t = 1 for finite samples.
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
-                  const Execution& how = {});
+                  const Execution& execution = {});
 /// out = square root of a, correctly rounded; below 0 gives NaN.
-Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& how = {});
+Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = e to the a, error below 0.501 ULP on the whole range.
-Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& how = {});
+Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = a to the exponent, error below 0.501 ULP; special values as C's pow.
-Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& how = {});
+Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out,
+                 const Execution& execution = {});
 /// out = a limited to [lowest, highest]; NaN stays. Errors: also kBadArgument for lowest > highest or NaN
 /// limits.
 Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out,
-                   const Execution& how = {});
+                   const Execution& execution = {});
 /// out = a limited to 0 and above; NaN stays.
-Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& how = {});
+Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 
 /// out[lane] = least sample; NaN is passed over, and a lane of nothing but NaN gives +infinity.
-Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& how = {});
+Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 /// out[lane] = greatest sample; NaN is passed over, and a lane of nothing but NaN gives -infinity.
-Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& how = {});
+Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 /// out[lane] = average over wavelength: samples weighted with their bands' widths; relative error at most
 /// (bands + 1) * 2^-24 for samples of one sign.
-Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& how = {});
+Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 
 /// One bit a lane: bit i % 64 of word i / 64; the last word's bits beyond the lanes are 0.
 using LaneMask = std::vector<std::uint64_t>;
 
 /// Lanes whose samples are all 0 (of either sign).
-Result<LaneMask> is_black(SampledSpectraView a, const Execution& how = {});
+Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution = {});
 /// Lanes with at least one NaN sample.
-Result<LaneMask> has_nan(SampledSpectraView a, const Execution& how = {});
+Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution = {});
 /// Lanes equal in every band (NaN equals nothing, +0 equals -0).
-Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& how = {});
+Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});
 /// Whether every lane is equal.
-Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& how = {});
+Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});
 
 }  // namespace spectile

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <spectile/spectra/bands.hpp>
+#include <spectile/float_buffer.hpp>
 #include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 
 namespace spectile {
 
@@ -37,31 +37,6 @@ struct SampledSpectraSpan {
   Bands bands;
   operator SampledSpectraView() const { return {data, lanes, bands}; }
 };
-
-namespace detail {
-struct PooledFree {
-  std::size_t bytes = 0;
-  void operator()(float* p) const noexcept;
-};
-}  // namespace detail
-
-/// Owner of 64-byte aligned, pooled float memory; freed memory is kept for the next owner of that size.
-class FloatBuffer {
- public:
-  FloatBuffer() = default;
-  /// Memory for `count` floats, not initialised. Errors: kOutOfMemory.
-  static Result<FloatBuffer> create(std::size_t count);
-  float* data() noexcept { return memory_.get(); }
-  const float* data() const noexcept { return memory_.get(); }
-  std::size_t size() const noexcept { return count_; }
-
- private:
-  std::unique_ptr<float[], detail::PooledFree> memory_;
-  std::size_t count_ = 0;
-};
-
-/// Gives pooled memory that nobody uses back to the operating system.
-void release_pooled_memory() noexcept;
 
 /// An owning batch of `lanes` sampled spectra on common bands.
 class SampledSpectra {

@@ -32,8 +32,8 @@ struct WavelengthSpan {
 /// Owner of K numbers a lane, zero at first.
 class WavelengthLanes {
  public:
-  static constexpr std::size_t kMostWavelengths = 64;
-  /// Errors: kOutOfMemory; kBadArgument for no wavelengths or more than kMostWavelengths.
+  static constexpr std::size_t kMaxWavelengths = 64;
+  /// Errors: kOutOfMemory; kBadArgument for no wavelengths or more than kMaxWavelengths.
   static Result<WavelengthLanes> create(std::size_t lanes, std::size_t count);
   std::size_t lanes() const noexcept { return lanes_; }
   std::size_t count() const noexcept { return count_; }
@@ -74,7 +74,7 @@ enum class WavelengthSampling {
 /// Technique for Full Spectral Rendering, Journal of WSCG 17, 2009.
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
                                 double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
-                                const Execution& how = {});
+                                const Execution& execution = {});
 
 /// Terminates all but the first wavelength of the lanes whose `lanes_hit` is not 0 (of all, where it is
 /// empty), as at a dispersive surface: their densities become 0 and the first one's is divided by K, so that
@@ -95,7 +95,7 @@ class SpectrumSampler {
   static Result<SpectrumSampler> create(const Spectrum& spectrum);
 
   /// Shapes: values [k][lanes], as the wavelengths, in other memory. Errors: kSizeMismatch.
-  Result<void> sample(WavelengthView lambda_nm, WavelengthSpan values, const Execution& how = {}) const;
+  Result<void> sample(WavelengthView lambda_nm, WavelengthSpan values, const Execution& execution = {}) const;
 
  private:
   SpectrumSampler() = default;
@@ -105,7 +105,7 @@ class SpectrumSampler {
 
 /// The same for a spectrum that is looked up once.
 Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
-                    const Execution& how = {});
+                    const Execution& execution = {});
 
 /// Three response curves that radiance at sampled wavelengths is weighed with.
 class ResponseCurves {
@@ -131,6 +131,6 @@ class ResponseCurves {
 /// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at
 /// the nanometres beside the wavelength; NaN and infinities go through. Errors: kSizeMismatch.
 Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
-                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& how = {});
+                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& execution = {});
 
 }  // namespace spectile

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/spectra/measured_spectrum.hpp>
 #include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/spectra/measured_spectrum.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <string>
 #include <vector>

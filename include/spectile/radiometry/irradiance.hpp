@@ -19,7 +19,7 @@
 #include <span>
 #include <spectile/radiometry/directions.hpp>
 #include <spectile/result.hpp>
-#include <spectile/radiometry/units.hpp>
+#include <spectile/units.hpp>
 
 namespace spectile {
 

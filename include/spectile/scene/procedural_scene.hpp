@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <spectile/film/film.hpp>
-#include <spectile/spectra/spectrum.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/spectra/spectrum.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,7 +93,7 @@ std::uint64_t simulation_steps(const FilmOptions& film, const SceneSampling& sam
 /// number, the film is the same. Errors: those of draw() and Film::add(); kBadArgument for steps that there
 /// are not.
 Result<void> simulate(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
-                      std::uint64_t first, std::uint64_t count, const Execution& how = {});
+                      std::uint64_t first, std::uint64_t count, const Execution& execution = {});
 
 /// How far a film's developed XYZ is from the exact values, over the pixels of its window.
 struct SceneError {
@@ -107,6 +107,6 @@ struct SceneError {
 
 /// Errors: those of FilmDevelopment::create() and update().
 Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
-                                    const Execution& how = {});
+                                    const Execution& execution = {});
 
 }  // namespace spectile

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

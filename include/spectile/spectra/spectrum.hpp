@@ -4,9 +4,9 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
-#include <spectile/result.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 #include <variant>
@@ -183,7 +183,7 @@ class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
 class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
  public:
   /// Errors: kBadArgument for a component that is not finite, and for colours that the method cannot make
-  /// (see limit_gamut).
+  /// (see gamut_clip).
   static Result<UpsampledSpectrum> from_rgb(const Upsampler& upsampler, const std::array<double, 3>& rgb);
 
   double operator()(double lambda_nm) const noexcept;

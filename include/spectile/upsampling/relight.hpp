@@ -44,6 +44,7 @@ class Relighter {
 /// The colour of each lane. The relighter's upsampler and projector must still exist. Shapes: in, out three
 /// times [lanes]; they may be the same. Numbers: NaN and infinities as for upsample_srgb() and project().
 /// Errors: kSizeMismatch; kBadArgument for samples not aligned.
-Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& how = {});
+Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out,
+                     const Execution& execution = {});
 
 }  // namespace spectile

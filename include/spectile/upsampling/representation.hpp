@@ -3,8 +3,8 @@
 #pragma once
 
 #include <memory>
-#include <spectile/lanes/arithmetic.hpp>
 #include <spectile/color/colorimetry.hpp>
+#include <spectile/lanes/arithmetic.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
@@ -31,12 +31,13 @@ class SampledRepresentation {
   /// A batch with one light, one reflectance in every lane: its averages over the bands.
   Result<SampledSpectra> light(const Spectrum& spectrum, std::size_t lanes) const;
   Result<SampledSpectra> reflectance(const Spectrum& spectrum, std::size_t lanes) const;
-  Result<void> light_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& how = {}) const;
-  Result<void> reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& how = {}) const;
+  Result<void> light_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& execution = {}) const;
+  Result<void> reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out,
+                                    const Execution& execution = {}) const;
   /// Colours of light.
-  Result<void> to_xyz(SampledSpectraView light, ColorSpan xyz, const Execution& how = {}) const;
-  Result<void> to_rgb(SampledSpectraView light, ColorSpan rgb, const Execution& how = {}) const;
-  Result<void> luminance(SampledSpectraView light, LanesSpan y, const Execution& how = {}) const;
+  Result<void> to_xyz(SampledSpectraView light, ColorSpan xyz, const Execution& execution = {}) const;
+  Result<void> to_rgb(SampledSpectraView light, ColorSpan rgb, const Execution& execution = {}) const;
+  Result<void> luminance(SampledSpectraView light, LanesSpan y, const Execution& execution = {}) const;
 
  private:
   SampledRepresentation(Upsampler reflectances, Upsampler lights, Projector projector);
@@ -57,23 +58,24 @@ class RgbRepresentation {
   /// The colour of the light; of the reflectance under D65. Integrals over 360 to 830 nm.
   Result<SampledSpectra> light(const Spectrum& spectrum, std::size_t lanes) const;
   Result<SampledSpectra> reflectance(const Spectrum& spectrum, std::size_t lanes) const;
-  Result<void> light_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& how = {}) const;
-  Result<void> reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& how = {}) const;
-  Result<void> to_xyz(SampledSpectraView light, ColorSpan xyz, const Execution& how = {}) const;
-  Result<void> to_rgb(SampledSpectraView light, ColorSpan rgb, const Execution& how = {}) const;
-  Result<void> luminance(SampledSpectraView light, LanesSpan y, const Execution& how = {}) const;
+  Result<void> light_from_rgb(ColorView rgb, SampledSpectraSpan out, const Execution& execution = {}) const;
+  Result<void> reflectance_from_rgb(ColorView rgb, SampledSpectraSpan out,
+                                    const Execution& execution = {}) const;
+  Result<void> to_xyz(SampledSpectraView light, ColorSpan xyz, const Execution& execution = {}) const;
+  Result<void> to_rgb(SampledSpectraView light, ColorSpan rgb, const Execution& execution = {}) const;
+  Result<void> luminance(SampledSpectraView light, LanesSpan y, const Execution& execution = {}) const;
 
   /// The conversions to the other representation and back: what a batch of sampled lights looks like as RGB,
   /// and spectra with the colours of a batch of RGB.
   Result<void> from_sampled(const SampledRepresentation& other, SampledSpectraView light,
-                            SampledSpectraSpan out, const Execution& how = {}) const;
+                            SampledSpectraSpan out, const Execution& execution = {}) const;
   Result<void> to_sampled(const SampledRepresentation& other, SampledSpectraView light,
-                          SampledSpectraSpan out, const Execution& how = {}) const;
+                          SampledSpectraSpan out, const Execution& execution = {}) const;
 
  private:
   RgbRepresentation() = default;
   Result<void> weighted(const Matrix3& matrix, SampledSpectraView light, ColorSpan out,
-                        const Execution& how) const;
+                        const Execution& execution) const;
   Bands bands_;
 };
 

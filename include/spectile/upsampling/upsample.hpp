@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/spectra/measured_spectrum.hpp>
-#include <spectile/result.hpp>
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
+#include <spectile/spectra/bands.hpp>
+#include <spectile/spectra/measured_spectrum.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +44,7 @@ enum class NegativeSamples {
 };
 
 /// How results are stored in memory.
-enum class Stores {
+enum class StoreHint {
   kAuto,       ///< round the caches when the batch is larger than 64 MiB
   kCached,     ///< ordinary stores: best when the spectra are read again at once
   kStreaming,  ///< round the caches
@@ -102,7 +102,7 @@ class Upsampler {
   const float* table() const noexcept { return table_.data(); }
   /// XYZ of RGB 1, 1, 1, and the matrix that goes with it: see above.
   const Matrix3& rgb_to_xyz() const noexcept { return rgb_to_xyz_; }
-  /// Weights of R, G and B in the luminance that limit_gamut() keeps: the primaries' under the light as the
+  /// Weights of R, G and B in the luminance that gamut_clip() keeps: the primaries' under the light as the
   /// whole visible range shows it, so that they do not depend on the bands.
   const std::array<float, 3>& luminance() const noexcept { return luminance_; }
   /// The sigmoid's tables; null for the other methods.
@@ -140,8 +140,8 @@ struct GamutReport {
 /// Colours outside keep their luminance (limited to 0 to 1 for the sigmoid's reflectances) and their dominant
 /// wavelength. What has a component that is not finite stays as it is and does not count. Shapes: rgb three
 /// times [lanes]. Errors: kBadArgument for samples not aligned.
-Result<GamutReport> limit_gamut(const Upsampler& upsampler, ColorSpan rgb,
-                                OutOfGamut policy = OutOfGamut::kClip, const Execution& how = {});
+Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb,
+                               OutOfGamut policy = OutOfGamut::kClip, const Execution& execution = {});
 
 /// Coefficients of a method: three for every lane, and a scale for the sigmoid's unbounded ones and lights.
 /// For methods that mix basis spectra they are the RGB itself. upsample_srgb() is coefficients() and
@@ -150,7 +150,7 @@ struct CoefficientLanes {
   ColorLanes c;
   ScalarLanes scale;  ///< of no lanes where the method needs none
   /// Lanes without coefficients: theirs are those of the last colour that has some on the line from the grey
-  /// of their luminance, where limit_gamut() would move them.
+  /// of their luminance, where gamut_clip() would move them.
   GamutReport unsolved;
   static Result<CoefficientLanes> create(const Upsampler& upsampler, std::size_t lanes);
 };
@@ -159,11 +159,11 @@ struct CoefficientLanes {
 /// (times the scale), greys give a flat spectrum, black and white exactly 0 and 1, NaN or an infinity NaN.
 /// Errors: kSizeMismatch, kBadArgument for samples not aligned.
 Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, CoefficientLanes& out,
-                          const Execution& how = {});
+                          const Execution& execution = {});
 
 /// Coefficients to spectra: the bits of upsample_srgb(). Errors: kBandsMismatch, kSizeMismatch.
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraSpan spectra,
-                    Stores stores = Stores::kAuto, const Execution& how = {});
+                    StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
 
 /// Linear RGB (sRGB, or of the primaries that the upsampler was created with) to spectra.
 /// Shapes: rgb three times [lanes]; spectra [block][band][64].
@@ -173,11 +173,11 @@ Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, Samp
 /// infinities, NaN or, where the result is minus infinity and negative samples are not kept, 0. The sigmoid:
 /// see coefficients(). Errors: kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
-                           Stores stores = Stores::kAuto, const Execution& how = {});
+                           StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
 
 /// CIE XYZ to spectra, by way of linear sRGB with its D65 white (see xyz_to_srgb).
 /// Shapes, numbers, errors as for upsample_srgb.
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
-                          Stores stores = Stores::kAuto, const Execution& how = {});
+                          StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
 
 }  // namespace spectile

@@ -10,8 +10,8 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/average/average_inputs.hpp"
 #include "src/io/average/average_strip.hpp"
-#include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -96,15 +96,14 @@ class AverageJob : public io::LineJob {
   }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
-    auto sums = io::AverageStrip::create(plan_, first_line, lines);
-    if (!sums) return sums.error();
+    SPECTILE_ASSIGN(auto sums, io::AverageStrip::create(plan_, first_line, lines));
     std::vector<Result<void>> results(read_.size());
     // Which image is the first that failed: those after it need not be read any more, those before it must
     // be, so that the error is the same every time.
     std::atomic<std::size_t> failed = read_.size();
     const auto one = [&](std::size_t i) {
       if (i > failed) return;
-      results[i] = add_image(i, **sums);
+      results[i] = add_image(i, *sums);
       std::size_t seen = failed;
       while (!results[i] && i < seen && !failed.compare_exchange_weak(seen, i)) {
       }
@@ -117,7 +116,7 @@ class AverageJob : public io::LineJob {
                         for (std::size_t i = first; i < first + count; ++i) one(alone + i);
                       });
     if (failed < read_.size()) return results[failed].error();
-    return std::shared_ptr<Strip>(*std::move(sums));
+    return std::shared_ptr<Strip>(std::move(sums));
   }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
@@ -159,20 +158,18 @@ class AverageJob : public io::LineJob {
       const std::scoped_lock lock(mutex_);
       if (!ask()) return make_error(ErrorCode::kCancelled, "stopped on request");
     }
-    auto samples = io::make_strip(plan_.planes, plan_.width, sums.first_line, sums.lines);
-    if (!samples) return samples.error();
-    SPECTILE_TRY(inputs_.fill(input, **samples));
-    const auto added = sums.add(**samples, plan_.weights.units[input], i, kernels_);
-    if (!added) return added.error();
-    if (added->difference) {
-      const io::Difference& at = *added->difference;
+    SPECTILE_ASSIGN(auto samples, io::make_strip(plan_.planes, plan_.width, sums.first_line, sums.lines));
+    SPECTILE_TRY(inputs_.fill(input, *samples));
+    SPECTILE_ASSIGN(const auto added, sums.add(*samples, plan_.weights.units[input], i, kernels_));
+    if (added.difference) {
+      const io::Difference& at = *added.difference;
       return make_error(ErrorCode::kBadFile,
                         "{}: channel \"{}\" is {} at {},{}, but {} in {}; whole numbers cannot be averaged",
                         inputs_.path(input), plan_.planes[at.plane].name, at.here, at.x, at.y, at.first,
                         inputs_.path(read_[0]));
     }
     const std::scoped_lock lock(mutex_);
-    nonfinite_[input].add(added->nonfinite);
+    nonfinite_[input].add(added.nonfinite);
     return {};
   }
 
@@ -215,20 +212,18 @@ Result<ImageReport> average_files(std::span<const std::string> paths, const std:
     return make_error(ErrorCode::kBadArgument, "{} weights for {} images", options.weights.size(),
                       paths.size());
   }
-  auto weights = exact::whole_weights(options.weights.empty() ? std::vector<double>(paths.size(), 1.0)
-                                                              : options.weights);
-  if (!weights) return weights.error();
+  SPECTILE_ASSIGN(auto weights,
+                  exact::whole_weights(options.weights.empty() ? std::vector<double>(paths.size(), 1.0)
+                                                               : options.weights));
   for (const std::string& path : paths) SPECTILE_TRY(io::check_distinct(path, output));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  auto inputs = io::AverageInputs::open(paths, threads);
-  if (!inputs) return inputs.error();
+  SPECTILE_ASSIGN(auto inputs, io::AverageInputs::open(paths, threads));
 
-  const double sum = weights->sum;
-  AverageJob job(**inputs, options, *std::move(weights), **kernels);
+  const double sum = weights.sum;
+  AverageJob job(*inputs, options, std::move(weights), *kernels);
   io::ImageSpec spec;
-  spec.source = &(*inputs)->header();
+  spec.source = &inputs->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
   spec.replaced = {"spectileAverage"};
@@ -236,12 +231,11 @@ Result<ImageReport> average_files(std::span<const std::string> paths, const std:
       "spectileAverage",
       fmt::format("{} image{}, weights' sum {}", paths.size(), paths.size() == 1 ? "" : "s", sum));
   const std::size_t slots = io::slot_count(spec, io::width_of(*spec.source), threads);
-  auto writer = io::ExrWriter::create(output, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, spec.channels, slots));
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, spec.channels, slots));
   ImageOptions run = options;
   run.progress = [&job](const Progress& progress) { return job.carry_on(progress); };
-  return io::convert(job, **writer, slots, job.strip_lines((*writer)->lines_per_chunk()), run,
+  return io::convert(job, *writer, slots, job.strip_lines(writer->lines_per_chunk()), run,
                      [&job](const LineStats& found) { return job.refusal(found); });
 }
 

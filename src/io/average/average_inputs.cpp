@@ -66,12 +66,11 @@ Result<std::unique_ptr<AverageInputs>> AverageInputs::open(std::span<const std::
   // Many images are decoded side by side, each by one thread; few by all threads each.
   inputs->threads_each_ = paths.size() < static_cast<std::size_t>(threads) ? threads : 1;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    auto input = inputs->open_one(i);
-    if (!input) return input.error();
-    SPECTILE_TRY(check_kind(**input));
-    SPECTILE_TRY(i == 0 ? inputs->start(**input) : inputs->compare(**input));
-    inputs->chunk_lines_ = std::max(inputs->chunk_lines_, chunk_lines_of((*input)->header(0)));
-    if (i < inputs->most_open()) inputs->open_.push_back(*std::move(input));
+    SPECTILE_ASSIGN(auto input, inputs->open_one(i));
+    SPECTILE_TRY(check_kind(*input));
+    SPECTILE_TRY(i == 0 ? inputs->start(*input) : inputs->compare(*input));
+    inputs->chunk_lines_ = std::max(inputs->chunk_lines_, chunk_lines_of(input->header(0)));
+    if (i < inputs->most_open()) inputs->open_.push_back(std::move(input));
   }
   return inputs;
 }
@@ -137,27 +136,26 @@ bool AverageInputs::is_as_before(const ExrInput& again) const {
 
 std::size_t AverageInputs::most_open() const {
   // OpenEXR keeps the chunks that it decodes for every open file: one, or two for every thread.
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   // Opening 290 of 300 images for every strip took 7 % longer than opening 44 of them.
-  constexpr std::size_t kMostFiles = 64;
+  constexpr std::size_t kMaxFiles = 64;
   std::size_t bytes = 1;
   for (const PlaneSpec& plane : planes_) bytes += plane.sample_bytes();
   const auto chunks = static_cast<std::size_t>(threads_each_ > 1 ? 2 * threads_each_ : 1);
   bytes *= static_cast<std::size_t>(width_of(header_)) * static_cast<std::size_t>(chunk_lines_) * chunks;
   // The rest of the limit is for the output, and for whoever calls.
   const long limit = ::sysconf(_SC_OPEN_MAX);
-  const std::size_t allowed = limit > 0 ? static_cast<std::size_t>(limit) / 2 : kMostFiles;
-  return std::min({kMostFiles, allowed, kMostBytes / bytes});
+  const std::size_t allowed = limit > 0 ? static_cast<std::size_t>(limit) / 2 : kMaxFiles;
+  return std::min({kMaxFiles, allowed, kMaxBytes / bytes});
 }
 
 Result<void> AverageInputs::fill(std::size_t input, Strip& strip) {
   if (input < open_.size()) return fill_strip(*open_[input], 0, planes_, strip);
-  auto again = open_one(input);
-  if (!again) return again.error();
-  if (!is_as_before(**again)) {
+  SPECTILE_ASSIGN(auto again, open_one(input));
+  if (!is_as_before(*again)) {
     return make_error(ErrorCode::kBadFile, "{}: is not any more what it was", paths_[input]);
   }
-  return fill_strip(**again, 0, planes_, strip);
+  return fill_strip(*again, 0, planes_, strip);
 }
 
 }  // namespace spectile::io

@@ -38,17 +38,15 @@ Result<std::shared_ptr<AverageStrip>> AverageStrip::create(const AveragePlan& pl
   const auto rows = static_cast<std::size_t>(lines);
   for (std::size_t i = 0; i < plan.planes.size(); ++i) {
     const std::size_t stride = sum_bytes(plan, i) * padded(plan);
-    auto sums = FloatBuffer::create(stride * rows / sizeof(float));
-    if (!sums) return sums.error();
-    std::memset(sums->data(), 0, stride * rows);
-    strip->planes.push_back(*std::move(sums));
+    SPECTILE_ASSIGN(auto sums, FloatBuffer::create(stride * rows / sizeof(float)));
+    std::memset(sums.data(), 0, stride * rows);
+    strip->planes.push_back(std::move(sums));
     strip->stride_bytes.push_back(stride);
   }
   const std::size_t bytes = plan.planes.size() * rows * padded(plan);
-  auto flags = FloatBuffer::create(bytes / sizeof(float));
-  if (!flags) return flags.error();
-  std::memset(flags->data(), 0, bytes);
-  strip->flags_ = *std::move(flags);
+  SPECTILE_ASSIGN(auto flags, FloatBuffer::create(bytes / sizeof(float)));
+  std::memset(flags.data(), 0, bytes);
+  strip->flags_ = std::move(flags);
   strip->lines_ = std::vector<Line>(rows);
   return strip;
 }
@@ -65,8 +63,7 @@ std::uint64_t* AverageStrip::sums(std::size_t plane, int line) {
 
 Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, std::size_t image,
                                 const kernels::KernelTable& kernels) {
-  auto row = FloatBuffer::create(padded(plan_));
-  if (!row) return row.error();
+  SPECTILE_ASSIGN(auto row, FloatBuffer::create(padded(plan_)));
   std::vector<char> bad(static_cast<std::size_t>(plan_.width));
   Added added;
   for (int line = first_line; line < first_line + lines; ++line) {
@@ -79,7 +76,7 @@ Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, std::si
   std::vector<PixelCount> nonfinite(static_cast<std::size_t>(lines));
   for (int i = 0; i < lines; ++i) {
     const int at = static_cast<int>((static_cast<std::size_t>(i) + image * kLinesApart) % nonfinite.size());
-    if (add_line(samples, first_line + at, units, row->data(), bad, kernels)) continue;
+    if (add_line(samples, first_line + at, units, row.data(), bad, kernels)) continue;
     const auto from = std::find(bad.begin(), bad.end(), 1);
     nonfinite[static_cast<std::size_t>(at)].add(static_cast<std::uint64_t>(std::count(from, bad.end(), 1)),
                                                 static_cast<int>(from - bad.begin()), first_line + at);

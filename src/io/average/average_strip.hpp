@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kernels/abi.hpp"
+#include "src/io/average/exact_average.hpp"
 #include "src/io/convert/frame/conversion.hpp"
 #include "src/io/exr/strips.hpp"
-#include "src/io/average/exact_average.hpp"
 
 namespace spectile::io {
 

@@ -22,7 +22,7 @@ constexpr std::array<std::uint8_t, 19> kOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10
                                                  11, 4,  12, 3, 13, 2, 14, 1, 15};
 
 // The longest code: four literals then fit between two flushes of the bits.
-constexpr int kMostBits = 14;
+constexpr int kMaxBits = 14;
 
 /// A symbol and the bits after it.
 struct Extra {
@@ -81,8 +81,8 @@ class Block {
   Block(const std::uint8_t* from, std::span<const DeflateSequence> sequences)
       : from_(from), sequences_(sequences) {
     count();
-    literal_ = huffman_code(literals_, kMostBits);
-    distance_ = huffman_code(distances_, kMostBits);
+    literal_ = huffman_code(literals_, kMaxBits);
+    distance_ = huffman_code(distances_, kMaxBits);
     describe();
   }
 

@@ -23,7 +23,7 @@ constexpr std::size_t kBlockSequences = 16384;
 constexpr std::size_t kBlockBytes = std::size_t{1} << 28;
 // Two to this many bytes in which no string was found make the search's steps one longer, up to a limit.
 constexpr int kPatience = 8;
-constexpr std::size_t kMostMissed = std::size_t{1} << 16;
+constexpr std::size_t kMaxMissed = std::size_t{1} << 16;
 // Runs from so many bytes on are black or constant parts.
 constexpr std::size_t kLongRun = 512;
 std::uint32_t load32(const std::uint8_t* at) {
@@ -120,7 +120,7 @@ std::size_t RunDeflate::compress(std::span<const std::uint8_t> in, std::uint8_t*
     if (run) found = i - 1;
     if (!run && (i - found > kWindow || load32(bytes + found) != v)) {
       const std::size_t step = 1 + (missed >> kPatience);
-      missed = std::min(missed + step, kMostMissed);
+      missed = std::min(missed + step, kMaxMissed);
       i += step;
       continue;
     }

@@ -23,7 +23,6 @@
 #include <set>
 
 #include "src/io/exr/memory_stream.hpp"
-#include "src/io/convert/frame/settings.hpp"
 
 namespace spectile::io {
 namespace {

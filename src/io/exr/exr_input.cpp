@@ -16,8 +16,8 @@
 #include <new>
 #include <vector>
 
-#include "src/base/errors.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/base/errors.hpp"
 #include "src/io/exr/exr_sizes.hpp"
 
 namespace spectile::io {
@@ -71,9 +71,7 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
   SPECTILE_TRY(check_is_exr(path));
   std::unique_ptr<ExrInput> input(new ExrInput(path));
-  const auto identity = identify(path);
-  if (!identity) return identity.error();
-  input->identity_ = *identity;
+  SPECTILE_ASSIGN(input->identity_, identify(path));
   SPECTILE_TRY(guarded(path, [&] {
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
@@ -96,9 +94,8 @@ Result<ExrInput::Identity> ExrInput::identify(const std::string& path) {
 }
 
 Result<void> ExrInput::unchanged() const {
-  const auto now = identify(path_);
-  if (!now) return now.error();
-  if (*now == identity_) return {};
+  SPECTILE_ASSIGN(const auto now, identify(path_));
+  if (now == identity_) return {};
   return make_error(ErrorCode::kBadFile, "{}: was changed while it was read", path_);
 }
 

@@ -121,8 +121,8 @@ bool pass_value(Bytes& bytes, const std::string& type, std::int64_t claimed, std
     const auto height = bytes.next_number();
     if (!height) return false;
     // Above this a side is negative for OpenEXR, or its product with the other beyond any file.
-    constexpr std::uint32_t kMostSide = 1U << 24U;
-    if (*width > kMostSide || *height > kMostSide) return pass(-1);
+    constexpr std::uint32_t kMaxSide = 1U << 24U;
+    if (*width > kMaxSide || *height > kMaxSide) return pass(-1);
     return pass(std::int64_t{*width} * std::int64_t{*height} * 4);
   }
   if (type == "stringvector") {

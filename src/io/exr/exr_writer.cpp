@@ -67,9 +67,8 @@ ExrWriter::ExrWriter(AtomicFile file) : file_(std::move(file)) {}
 
 Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, const ImageSpec& spec,
                                                      std::size_t slots) {
-  auto file = AtomicFile::create(path);
-  if (!file) return file.error();
-  std::unique_ptr<ExrWriter> writer(new ExrWriter(*std::move(file)));
+  SPECTILE_ASSIGN(auto file, AtomicFile::create(path));
+  std::unique_ptr<ExrWriter> writer(new ExrWriter(std::move(file)));
   SPECTILE_TRY(writer->start(path, spec, slots));
   return writer;
 }

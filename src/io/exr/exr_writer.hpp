@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "src/io/convert/frame/area_filter.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/io/exr/level_size.hpp"
 
 namespace spectile::io {
 

@@ -82,9 +82,7 @@ Result<void> RegionReader::load(const std::vector<PlaneSpec>& planes, int slab, 
   const int last = static_cast<int>(std::min<std::int64_t>((std::int64_t{slab} + 1) * lines, most)) - 1;
   if (!slab_ || slab_->lines != last - first + 1) {
     slab_.reset();
-    auto fresh = make_strip(planes, columns_, first, last - first + 1);
-    if (!fresh) return fresh.error();
-    slab_ = *std::move(fresh);
+    SPECTILE_ASSIGN(slab_, make_strip(planes, columns_, first, last - first + 1));
   }
   slab_->first_line = first;
   Imf::FrameBuffer target;

@@ -34,9 +34,9 @@ Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, 
   strip->width = width;
   for (const PlaneSpec& plane : planes) {
     const std::size_t stride = stride_of(plane, width);
-    auto buffer = FloatBuffer::create(stride * static_cast<std::size_t>(lines) / sizeof(float));
-    if (!buffer) return buffer.error();
-    strip->planes.push_back(*std::move(buffer));
+    SPECTILE_ASSIGN(auto buffer,
+                    FloatBuffer::create(stride * static_cast<std::size_t>(lines) / sizeof(float)));
+    strip->planes.push_back(std::move(buffer));
     strip->stride_bytes.push_back(stride);
     strip->row_bytes.push_back(static_cast<std::size_t>(width) * plane.sample_bytes());
   }
@@ -48,12 +48,11 @@ Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, in
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i].type = from.sample_bytes(i) == 2 ? Imf::HALF : Imf::FLOAT;
   }
-  auto out = make_strip(planes, width, first_line, lines);
-  if (!out) return out.error();
+  SPECTILE_ASSIGN(auto out, make_strip(planes, width, first_line, lines));
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const std::size_t skipped = static_cast<std::size_t>(x) * from.sample_bytes(i);
     for (int line = first_line; line < first_line + lines; ++line) {
-      std::memcpy((*out)->row(i, line), from.row(i, line) + skipped, (*out)->row_bytes[i]);
+      std::memcpy(out->row(i, line), from.row(i, line) + skipped, out->row_bytes[i]);
     }
   }
   return out;

@@ -5,8 +5,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <spectile/result.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/result.hpp>
 #include <string>
 #include <vector>
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "src/base/errors.hpp"
-#include "src/io/film/film_channels.hpp"
-#include "src/io/convert/sources/plan_attribute.hpp"
 #include "src/film/responses.hpp"
+#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/io/film/film_channels.hpp"
 
 namespace spectile::io {
 namespace {
@@ -104,9 +104,8 @@ Result<Sensor> sensor_like(const std::string& name, const float* table, const Fi
       }
       if (nm.size() == 1) return Sensor::named("cie1931");
     }
-    auto curve = PiecewiseLinearSpectrum::from_samples(nm, values);
-    if (!curve) return curve.error();
-    curves.emplace_back(*std::move(curve));
+    SPECTILE_ASSIGN(auto curve, PiecewiseLinearSpectrum::from_samples(nm, values));
+    curves.emplace_back(std::move(curve));
   }
   return Sensor::create({curves[0], curves[1], curves[2]});
 }
@@ -119,9 +118,7 @@ Result<void> read_responses(Reader& reader, FilmAccess::State& s, std::size_t co
     response.name = reader.text(response_name(i));
     const std::vector<float> table = reader.numbers<float>(table_name(i), floats);
     SPECTILE_TRY(reader.result());
-    auto memory = FloatBuffer::create(floats);
-    if (!memory) return memory.error();
-    response.table = *std::move(memory);
+    SPECTILE_ASSIGN(response.table, FloatBuffer::create(floats));
     std::copy(table.begin(), table.end(), response.table.data());
     const bool finite = std::all_of(table.begin(), table.end(), [](float v) { return v - v == 0; });
     if (!finite) reader.fail(table_name(i));
@@ -215,9 +212,7 @@ Result<FilmDescription> film_of(const Imf::Header& header, const std::string& pa
   }
   const auto bands = Bands::from_list(std::move(list));
   if (bands && edges->size() % 3 == 0) {
-    auto planned = with_plan(header, *bands, path);
-    if (!planned) return planned.error();
-    o.bands = *std::move(planned);
+    SPECTILE_ASSIGN(o.bands, with_plan(header, *bands, path));
   } else {
     reader.fail("spectileFilmBands");
   }
@@ -235,8 +230,8 @@ Result<FilmDescription> film_of(const Imf::Header& header, const std::string& pa
   const auto responses = reader.numbers<std::uint32_t>("spectileFilmResponses", 1)[0];
   SPECTILE_TRY(reader.result());
   // So many responses of this size cannot be in a header; and a film without any has one quad all the same.
-  constexpr std::uint32_t kMostResponses = 256;
-  if (responses < 1 || responses > kMostResponses) {
+  constexpr std::uint32_t kMaxResponses = 256;
+  if (responses < 1 || responses > kMaxResponses) {
     reader.fail("spectileFilmResponses");
     return reader.result().error();
   }

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/io/exr/exr_input.hpp"
 #include "src/film/state.hpp"
+#include "src/io/exr/exr_input.hpp"
 
 namespace spectile::io {
 

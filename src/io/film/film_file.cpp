@@ -11,9 +11,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/film/film_channels.hpp"
-#include "src/io/convert/frame/output.hpp"
 #include "src/film/pixel.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/film/film_channels.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -128,8 +128,7 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
     return make_error(ErrorCode::kBadArgument,
                       "{}: the progress text holds a zero byte, which files cannot keep", path);
   }
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   State& s = FilmAccess::state(film);
   const std::unique_lock lock(s.whole);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) {
@@ -142,12 +141,12 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   const Imath::Box2i data({window.x0, window.y0}, {window.x1 - 1, window.y1 - 1});
   const Imf::Header header(display, data);
   const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
-  SaveJob job(s, window, limbs, s.options.xyz.has_value(), **kernels);
+  SaveJob job(s, window, limbs, s.options.xyz.has_value(), *kernels);
   // OpenEXRCore counts channels in 16 bits, with a sign; beyond, it drops all without a word.
-  constexpr std::size_t kMostChannels = 32767;
-  if (job.channels().size() > kMostChannels) {
+  constexpr std::size_t kMaxChannels = 32767;
+  if (job.channels().size() > kMaxChannels) {
     return make_error(ErrorCode::kUnavailable, "{}: the film takes {} channels, and a file holds {}", path,
-                      job.channels().size(), kMostChannels);
+                      job.channels().size(), kMaxChannels);
   }
   io::ImageSpec spec;
   spec.source = &header;
@@ -155,10 +154,9 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   spec.compression = options.compression;
   spec.text_attributes = io::film_attributes(s, progress);
   const std::size_t slots = io::slot_count(spec, window.width(), tiles::thread_count(options.threads));
-  auto writer = io::ExrWriter::create(path, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots));
-  const auto report = io::convert(job, **writer, slots, window.height(), options,
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, slots));
+  const auto report = io::convert(job, *writer, slots, window.height(), options,
                                   [](const io::LineStats&) { return std::optional<Error>(); });
   if (!report) return report.error();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -167,9 +165,9 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
 
 /// Lines to read at once: a row of tiles, or as many as fit into some memory.
 int lines_at_once(std::size_t channels, int width) {
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   const std::size_t line = channels * sizeof(std::uint32_t) * static_cast<std::size_t>(width);
-  return static_cast<int>(std::clamp<std::size_t>(kMostBytes / line, 1, kFilmTile));
+  return static_cast<int>(std::clamp<std::size_t>(kMaxBytes / line, 1, kFilmTile));
 }
 
 Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::FilmLimb>& limbs,
@@ -180,14 +178,14 @@ Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::Fil
   }
   const int step = lines_at_once(planes.size(), data.width());
   for (int first = 0; first < data.height(); first += step) {
-    auto strip = io::make_strip(planes, data.width(), first, std::min(step, data.height() - first));
-    if (!strip) return strip.error();
-    SPECTILE_TRY(io::fill_strip(input, 0, planes, **strip));
-    for (int line = first; line < first + (*strip)->lines; ++line) {
+    SPECTILE_ASSIGN(auto strip,
+                    io::make_strip(planes, data.width(), first, std::min(step, data.height() - first)));
+    SPECTILE_TRY(io::fill_strip(input, 0, planes, *strip));
+    for (int line = first; line < first + strip->lines; ++line) {
       const int y = data.y0 + line;
       for (std::size_t i = 0; i < limbs.size(); ++i) {
-        const auto* const hi = reinterpret_cast<const std::uint32_t*>((*strip)->row(2 * i, line));
-        const auto* const lo = reinterpret_cast<const std::uint32_t*>((*strip)->row(2 * i + 1, line));
+        const auto* const hi = reinterpret_cast<const std::uint32_t*>(strip->row(2 * i, line));
+        const auto* const lo = reinterpret_cast<const std::uint32_t*>(strip->row(2 * i + 1, line));
         for (int x = data.x0; x < data.x1; ++x) {
           const auto column = static_cast<std::size_t>(x - data.x0);
           const std::uint64_t bits = (std::uint64_t{hi[column]} << 32U) | lo[column];
@@ -217,12 +215,10 @@ void copy_weights(State& s) {
 }
 
 Result<LoadedFilm> load(const std::string& path, int threads) {
-  auto input = io::ExrInput::open(path, tiles::thread_count(threads));
-  if (!input) return input.error();
-  const Imf::Header& header = (*input)->header(0);
-  auto described = io::film_of(header, path);
-  if (!described) return described.error();
-  State& s = *described->state;
+  SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
+  const Imf::Header& header = input->header(0);
+  SPECTILE_ASSIGN(auto described, io::film_of(header, path));
+  State& s = *described.state;
   const Imath::Box2i& box = header.dataWindow();
   const PixelWindow data = {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
   if (data.x0 < s.window.x0 || data.y0 < s.window.y0 || data.x1 > s.window.x1 || data.y1 > s.window.y1) {
@@ -239,11 +235,11 @@ Result<LoadedFilm> load(const std::string& path, int threads) {
       }
     }
   }
-  SPECTILE_TRY(read_limbs(**input, s, limbs, data));
+  SPECTILE_TRY(read_limbs(*input, s, limbs, data));
   copy_weights(s);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
   if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
-  return LoadedFilm{FilmAccess::make(std::move(described->state)), std::move(described->progress)};
+  return LoadedFilm{FilmAccess::make(std::move(described.state)), std::move(described.progress)};
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/stages/band_channels.hpp"
 #include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/stages/band_channels.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -97,8 +97,7 @@ using Texts = std::vector<std::pair<std::string, std::string>>;
 Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
                           const std::vector<io::ChannelSpec>& channels, const Texts& texts,
                           const std::string& path, const ImageOptions& options) {
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
   const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1});
   const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
@@ -109,28 +108,25 @@ Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
   spec.compression = options.compression;
   spec.text_attributes = texts;
   const std::size_t slots = io::slot_count(spec, w.width(), tiles::thread_count(options.threads));
-  auto writer = io::ExrWriter::create(path, spec, slots);
-  if (!writer) return writer.error();
-  PictureJob job(picture, options.pixel, **kernels);
-  SPECTILE_TRY(job.prepare(**writer, slots));
-  return io::convert(job, **writer, slots, w.height(), options,
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
+  PictureJob job(picture, options.pixel, *kernels);
+  SPECTILE_TRY(job.prepare(*writer, slots));
+  return io::convert(job, *writer, slots, w.height(), options,
                      [](const io::LineStats&) { return std::optional<Error>(); });
 }
 
 Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t sensor,
                                 const std::string& path, const ImageOptions& options) {
-  auto development = FilmDevelopment::create(film, layer, sensor);
-  if (!development) return development.error();
-  const auto updated = development->update({options.threads});
-  if (!updated) return updated.error();
+  SPECTILE_ASSIGN(auto development, FilmDevelopment::create(film, layer, sensor));
+  SPECTILE_ASSIGN(const auto updated, development.update({options.threads}));
   Texts texts;
   if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
   if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
   if (layer == FilmLayer::kSpectrum) {
     io::add_layout_attributes(texts, Quantity::kIlluminant, film.options().bands);
   }
-  const Picture picture = {development->plane(0), development->planes(), development->stride(),
-                           development->stride() * static_cast<std::size_t>(development->height())};
+  const Picture picture = {development.plane(0), development.planes(), development.stride(),
+                           development.stride() * static_cast<std::size_t>(development.height())};
   auto report = write(picture, film.options(), channels_of(film, layer, options.pixel), texts, path, options);
   if (report && layer == FilmLayer::kSpectrum) report->bands = film.options().bands.count();
   return report;
@@ -141,20 +137,19 @@ Result<ImageReport> write_exact(const ProceduralScene& scene, const FilmOptions&
   const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
   const auto width = static_cast<std::size_t>(w.width());
   const std::size_t plane = width * static_cast<std::size_t>(w.height());
-  auto pixels = FloatBuffer::create(3 * plane);
-  if (!pixels) return pixels.error();
+  SPECTILE_ASSIGN(auto pixels, FloatBuffer::create(3 * plane));
   tiles::for_blocks(
       static_cast<std::size_t>(w.height()), {options.threads, 1}, [&](std::size_t first, std::size_t n) {
         for (std::size_t i = first * width; i < (first + n) * width; ++i) {
           const auto xyz =
               scene.xyz(film, w.x0 + static_cast<int>(i % width), w.y0 + static_cast<int>(i / width));
           for (std::size_t c = 0; c < 3; ++c) {
-            pixels->data()[c * plane + i] = static_cast<float>(xyz[c]);
+            pixels.data()[c * plane + i] = static_cast<float>(xyz[c]);
           }
         }
       });
   const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-  return write({pixels->data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
+  return write({pixels.data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
                options);
 }
 

@@ -7,8 +7,8 @@
 #include <spectile/image/plan_file.hpp>
 #include <stdexcept>
 
-#include "src/base/errors.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/base/errors.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile {
@@ -17,15 +17,15 @@ namespace {
 // Keeps the order of what it holds.
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
-constexpr std::size_t kMostWavelengths = 4096;
-constexpr std::size_t kMostLights = 256;
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMaxWavelengths = 4096;
+constexpr std::size_t kMaxLights = 256;
 constexpr double kFirstNm = 100;
 constexpr double kLastNm = 10000;
 // What a plan needs is well within; text beyond it is built to use up memory or time.
 constexpr int kDeepest = 16;
-constexpr std::size_t kMostValues = 4'000'000;
-constexpr std::size_t kMostKeys = 1024;  // of one object, whose keys are searched one by one
+constexpr std::size_t kMaxValues = 4'000'000;
+constexpr std::size_t kMaxKeys = 1024;  // of one object, whose keys are searched one by one
 constexpr const char* kMeasure = "CIEDE2000 against 1 nm integration, cross-validated";
 constexpr std::array<const char*, 3> kSensorNames = {"x", "y", "z"};
 
@@ -78,8 +78,8 @@ Json promises_of(const Plan& plan) {
 /// What is wrong with a plan, in words; empty for nothing.
 std::string flaw(const Plan& plan) {
   const std::size_t count = plan.wavelengths_nm.size();
-  if (count == 0 || count > kMostWavelengths) {
-    return fmt::format("{} wavelengths are not from 1 to {}", count, kMostWavelengths);
+  if (count == 0 || count > kMaxWavelengths) {
+    return fmt::format("{} wavelengths are not from 1 to {}", count, kMaxWavelengths);
   }
   for (std::size_t k = 0; k < count; ++k) {
     const double nm = plan.wavelengths_nm[k];
@@ -111,8 +111,8 @@ std::string flaw(const Plan& plan) {
       if (!std::isfinite(weight)) return fmt::format("a sensor weight is {}", weight);
     }
   }
-  if (plan.lights.empty() || plan.lights.size() > kMostLights) {
-    return fmt::format("{} lights are not from 1 to {}", plan.lights.size(), kMostLights);
+  if (plan.lights.empty() || plan.lights.size() > kMaxLights) {
+    return fmt::format("{} lights are not from 1 to {}", plan.lights.size(), kMaxLights);
   }
   std::set<std::string> names;
   for (const PlanLight& light : plan.lights) {
@@ -144,10 +144,10 @@ class Guard {
     if (depth > kDeepest) throw Refused(fmt::format("is nested more than {} deep", kDeepest));
     const auto at = static_cast<std::size_t>(depth);
     if (event == Json::parse_event_t::object_start) keys_[at + 1] = 0;
-    if (event == Json::parse_event_t::key && ++keys_[at] > kMostKeys) {
-      throw Refused(fmt::format("has an object of more than {} keys", kMostKeys));
+    if (event == Json::parse_event_t::key && ++keys_[at] > kMaxKeys) {
+      throw Refused(fmt::format("has an object of more than {} keys", kMaxKeys));
     }
-    if (++values_ > kMostValues) throw Refused(fmt::format("holds more than {} values", kMostValues));
+    if (++values_ > kMaxValues) throw Refused(fmt::format("holds more than {} values", kMaxValues));
     return true;
   }
 
@@ -217,7 +217,7 @@ PlanLight light_from(const Json& json) {
   if (!name.is_string()) throw Refused("the name of a light is no text");
   const auto text = name.get<std::string>();
   const std::string named = "the light " + io::quoted(text);
-  std::vector<double> emission = numbers(json, "emission", named, kMostWavelengths);
+  std::vector<double> emission = numbers(json, "emission", named, kMaxWavelengths);
   if (!json.contains("spectrum")) {
     auto known = illuminant(text);
     if (!known) throw Refused(named + " has no spectrum, and no illuminant is called so");
@@ -225,8 +225,8 @@ PlanLight light_from(const Json& json) {
   }
   const Json& spectrum = json["spectrum"];
   const std::string of = "the spectrum of " + named;
-  auto samples = MeasuredSpectrum::from_samples(numbers(spectrum, "wavelengths_nm", of, kMostValues),
-                                                numbers(spectrum, "values", of, kMostValues));
+  auto samples = MeasuredSpectrum::from_samples(numbers(spectrum, "wavelengths_nm", of, kMaxValues),
+                                                numbers(spectrum, "values", of, kMaxValues));
   if (!samples) throw Refused(of + ": " + samples.error().message);
   return {text, std::move(emission), *std::move(samples)};
 }
@@ -250,11 +250,11 @@ std::vector<Band> bands_from(const Json& json, const std::vector<double>& wavele
 Plan plan_from(const Json& json) {
   const std::string where = "the plan";
   Plan plan;
-  plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, kMostWavelengths);
+  plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, kMaxWavelengths);
   plan.sensor.resize(plan.wavelengths_nm.size());
   const Json& sensor = member(json, "sensor", where);
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto weights = numbers(sensor, kSensorNames[c], "the sensor", kMostWavelengths);
+    const auto weights = numbers(sensor, kSensorNames[c], "the sensor", kMaxWavelengths);
     if (weights.size() != plan.wavelengths_nm.size()) {
       throw Refused(fmt::format("the sensor has {} weights for {}, but there are {} wavelengths",
                                 weights.size(), kSensorNames[c], plan.wavelengths_nm.size()));
@@ -264,8 +264,8 @@ Plan plan_from(const Json& json) {
   if (json.contains("bands_nm")) plan.bands = bands_from(json["bands_nm"], plan.wavelengths_nm);
   const Json& lights = member(json, "illuminants", where);
   if (!lights.is_array()) throw Refused("\"illuminants\" is no list");
-  if (lights.size() > kMostLights) {
-    throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), kMostLights));
+  if (lights.size() > kMaxLights) {
+    throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), kMaxLights));
   }
   for (const Json& light : lights) plan.lights.push_back(light_from(light));
   const Json& observer = member(json, "observer", where);
@@ -325,7 +325,7 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source) {
   const auto refuse = [&](const std::string& what) {
     return make_error(ErrorCode::kBadFile, "{}: {}", source, what);
   };
-  if (json.size() > kMostBytes) return refuse("is larger than 64 MiB, which no plan is");
+  if (json.size() > kMaxBytes) return refuse("is larger than 64 MiB, which no plan is");
   try {
     Plan plan = plan_from(Json::parse(json, Guard()));
     if (const std::string what = flaw(plan); !what.empty()) return refuse(what);
@@ -340,9 +340,8 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source) {
 }
 
 Result<Plan> load_plan(const std::string& path) {
-  const auto file = io::read_text_file(path);
-  if (!file) return file.error();
-  return parse_plan(*file->text, path);
+  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
+  return parse_plan(*file.text, path);
 }
 
 Result<Bands> find_bands(const std::string& text) {
@@ -351,9 +350,8 @@ Result<Bands> find_bands(const std::string& text) {
   const bool like_a_path = text.find('/') != std::string::npos || text.ends_with(".json");
   std::error_code error;
   if (!like_a_path && !std::filesystem::exists(text, error)) return bands;
-  const auto plan = load_plan(text);
-  if (!plan) return plan.error();
-  return Bands::of_plan(*plan);
+  SPECTILE_ASSIGN(const auto plan, load_plan(text));
+  return Bands::of_plan(plan);
 }
 
 Result<void> save_plan(const Plan& plan, const std::string& path) {
@@ -361,10 +359,9 @@ Result<void> save_plan(const Plan& plan, const std::string& path) {
     return make_error(ErrorCode::kBadArgument, "{}: not written: {}", path, what);
   }
   const std::string text = plan_to_json(plan);
-  auto file = io::AtomicFile::create(path);
-  if (!file) return file.error();
-  SPECTILE_TRY(file->write_at(text.data(), text.size(), 0));
-  return file->commit();
+  SPECTILE_ASSIGN(auto file, io::AtomicFile::create(path));
+  SPECTILE_TRY(file.write_at(text.data(), text.size(), 0));
+  return file.commit();
 }
 
 }  // namespace spectile

@@ -10,7 +10,7 @@
 namespace spectile::io {
 namespace {
 
-constexpr double kMostBands = 100000;
+constexpr double kMaxBands = 100000;
 
 struct Word {
   std::string_view text;
@@ -162,11 +162,11 @@ Result<std::vector<std::size_t>> spectral_fields(const TextFile& file, const Tab
 
 /// Checks that the data are whole rows, as many as they should be. Returns how many.
 Result<std::size_t> count_rows(const TextFile& file, const Table& table, std::size_t fields) {
-  const auto named = number_of(file, table, "NUMBER_OF_FIELDS", static_cast<double>(fields), true, 0, 1e9);
-  if (!named) return named.error();
-  if (*named != static_cast<double>(fields)) {
+  SPECTILE_ASSIGN(const auto named,
+                  number_of(file, table, "NUMBER_OF_FIELDS", static_cast<double>(fields), true, 0, 1e9));
+  if (named != static_cast<double>(fields)) {
     return line_error(file, table.numbers.at("NUMBER_OF_FIELDS").line,
-                      fmt::format("NUMBER_OF_FIELDS is {}, but a row has {}", *named, fields));
+                      fmt::format("NUMBER_OF_FIELDS is {}, but a row has {}", named, fields));
   }
   const std::size_t rows = table.data.size() / fields;
   if (rows * fields != table.data.size() || rows == 0) {
@@ -175,11 +175,11 @@ Result<std::size_t> count_rows(const TextFile& file, const Table& table, std::si
                                   "more of {}",
                                   table.data_line, table.data.size(), fields));
   }
-  const auto sets = number_of(file, table, "NUMBER_OF_SETS", static_cast<double>(rows), true, 0, 1e9);
-  if (!sets) return sets.error();
-  if (*sets != static_cast<double>(rows)) {
+  SPECTILE_ASSIGN(const auto sets,
+                  number_of(file, table, "NUMBER_OF_SETS", static_cast<double>(rows), true, 0, 1e9));
+  if (sets != static_cast<double>(rows)) {
     return line_error(file, table.numbers.at("NUMBER_OF_SETS").line,
-                      fmt::format("NUMBER_OF_SETS is {}, but there are {} rows", *sets, rows));
+                      fmt::format("NUMBER_OF_SETS is {}, but there are {} rows", sets, rows));
   }
   return rows;
 }
@@ -196,33 +196,27 @@ struct SpectralData {
 
 Result<SpectralData> read_data(const TextFile& file) {
   SpectralData out;
-  auto table = Reader(file).read();
-  if (!table) return table.error();
-  out.table = *std::move(table);
-  const auto bands = number_of(file, out.table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMostBands);
-  if (!bands) return bands.error();
-  const auto start = number_of(file, out.table, "SPECTRAL_START_NM", std::nullopt, false, 1e-3, 1e9);
-  if (!start) return start.error();
-  const auto end = number_of(file, out.table, "SPECTRAL_END_NM", std::nullopt, false, 1e-3, 1e9);
-  if (!end) return end.error();
-  if (!(*end > *start)) {
+  SPECTILE_ASSIGN(auto table, Reader(file).read());
+  out.table = std::move(table);
+  SPECTILE_ASSIGN(const auto bands,
+                  number_of(file, out.table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMaxBands));
+  SPECTILE_ASSIGN(const auto start,
+                  number_of(file, out.table, "SPECTRAL_START_NM", std::nullopt, false, 1e-3, 1e9));
+  SPECTILE_ASSIGN(const auto end,
+                  number_of(file, out.table, "SPECTRAL_END_NM", std::nullopt, false, 1e-3, 1e9));
+  if (!(end > start)) {
     return line_error(file, out.table.numbers.at("SPECTRAL_END_NM").line,
-                      fmt::format("SPECTRAL_END_NM {} is not above SPECTRAL_START_NM {}", *end, *start));
+                      fmt::format("SPECTRAL_END_NM {} is not above SPECTRAL_START_NM {}", end, start));
   }
-  const auto norm = number_of(file, out.table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300);
-  if (!norm) return norm.error();
-  out.norm = *norm;
-  const auto count = static_cast<std::size_t>(*bands);
+  SPECTILE_ASSIGN(out.norm, number_of(file, out.table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300));
+  const auto count = static_cast<std::size_t>(bands);
   for (std::size_t i = 0; i < count; ++i) {
-    out.wavelengths_nm.push_back(*start + (*end - *start) * static_cast<double>(i) / (*bands - 1));
+    out.wavelengths_nm.push_back(start + (end - start) * static_cast<double>(i) / (bands - 1));
   }
-  auto places = spectral_fields(file, out.table, count);
-  if (!places) return places.error();
-  out.places = *std::move(places);
+  SPECTILE_ASSIGN(auto places, spectral_fields(file, out.table, count));
+  out.places = std::move(places);
   out.fields = out.table.format_line == 0 ? out.places.size() : out.table.fields.size();
-  const auto rows = count_rows(file, out.table, out.fields);
-  if (!rows) return rows.error();
-  out.rows = *rows;
+  SPECTILE_ASSIGN(out.rows, count_rows(file, out.table, out.fields));
   return out;
 }
 
@@ -256,23 +250,20 @@ bool is_cgats(const TextFile& file) {
 }
 
 Result<SampleLines> read_cgats(const TextFile& file, std::size_t column) {
-  const auto data = read_data(file);
-  if (!data) return data.error();
-  if (column >= data->rows) {
+  SPECTILE_ASSIGN(const auto data, read_data(file));
+  if (column >= data.rows) {
     return make_error(ErrorCode::kBadArgument, "{}: has {} data row{}, counted from 0; there is no {}",
-                      file.path, data->rows, data->rows == 1 ? "" : "s", column);
+                      file.path, data.rows, data.rows == 1 ? "" : "s", column);
   }
-  return row_of(file, *data, column);
+  return row_of(file, data, column);
 }
 
 Result<std::vector<SampleLines>> read_all_cgats(const TextFile& file) {
-  const auto data = read_data(file);
-  if (!data) return data.error();
+  SPECTILE_ASSIGN(const auto data, read_data(file));
   std::vector<SampleLines> out;
-  for (std::size_t row = 0; row < data->rows; ++row) {
-    auto samples = row_of(file, *data, row);
-    if (!samples) return samples.error();
-    out.push_back(*std::move(samples));
+  for (std::size_t row = 0; row < data.rows; ++row) {
+    SPECTILE_ASSIGN(auto samples, row_of(file, data, row));
+    out.push_back(std::move(samples));
   }
   return out;
 }

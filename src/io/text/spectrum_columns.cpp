@@ -11,22 +11,22 @@
 #include <cmath>
 #include <map>
 
+#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/text.hpp"
-#include "src/base/atomic_file.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile::io {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
 constexpr std::string_view kSeparators = ",; \t\f\v";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Fills `text`; the error of the system where there is one.
 int read_all(int descriptor, std::string& text) {
   std::array<char, 65536> buffer;
-  while (text.size() <= kMostBytes) {
+  while (text.size() <= kMaxBytes) {
     const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return errno;
@@ -78,7 +78,7 @@ Result<TextFile> read_text_file(const std::string& path) {
   const int failed = read_all(descriptor, text);
   ::close(descriptor);
   if (failed != 0) return system_error(path, "read", failed);
-  if (text.size() > kMostBytes) {
+  if (text.size() > kMaxBytes) {
     return make_error(ErrorCode::kBadFile, "{}: is larger than 64 MiB, which no spectrum's text is", path);
   }
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
@@ -216,18 +216,18 @@ class SpectraReader {
     return {};
   }
 
-  Error wrong_count(std::size_t number, const char* how) const {
+  Error wrong_count(std::size_t number, const char* execution) const {
     return line_error(
         file_, number,
-        fmt::format("has {} values than the first line of samples, which has {}", how, columns_));
+        fmt::format("has {} values than the first line of samples, which has {}", execution, columns_));
   }
 
   Result<void> add(std::size_t at, double wavelength_nm, double value, std::size_t number) {
     if (!std::isfinite(wavelength_nm) || !std::isfinite(value)) {
       return line_error(file_, number, quoted(file_.lines[number - 1]) + " is not finite");
     }
-    if (at >= kMostSpectra) {
-      return line_error(file_, number, fmt::format("holds more than {} spectra", kMostSpectra));
+    if (at >= kMaxSpectra) {
+      return line_error(file_, number, fmt::format("holds more than {} spectra", kMaxSpectra));
     }
     if (at == spectra_.size()) spectra_.emplace_back();
     spectra_[at].wavelengths_nm.push_back(wavelength_nm);
@@ -236,7 +236,7 @@ class SpectraReader {
     return {};
   }
 
-  static constexpr std::size_t kMostSpectra = 100000;
+  static constexpr std::size_t kMaxSpectra = 100000;
   const TextFile& file_;
   std::vector<SampleLines> spectra_;
   std::size_t columns_ = 0;  // of the first line of samples

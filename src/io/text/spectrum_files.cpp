@@ -36,45 +36,38 @@ Result<void> check_samples(const io::TextFile& file, const io::SampleLines& samp
 
 Result<Spectrum> spectrum_of(const io::TextFile& file, const io::SampleLines& samples) {
   SPECTILE_TRY(check_samples(file, samples));
-  auto spectrum = PiecewiseLinearSpectrum::from_samples(samples.wavelengths_nm, samples.values);
-  if (!spectrum) return spectrum.error();
-  return Spectrum(*std::move(spectrum));
+  SPECTILE_ASSIGN(auto spectrum,
+                  PiecewiseLinearSpectrum::from_samples(samples.wavelengths_nm, samples.values));
+  return Spectrum(std::move(spectrum));
 }
 
 }  // namespace
 
 Result<MeasuredSpectrum> load_spectrum_csv(const std::string& path) {
-  const auto file = io::read_text_file(path);
-  if (!file) return file.error();
-  const auto samples = io::read_columns(*file);
-  if (!samples) return samples.error();
-  return MeasuredSpectrum::from_samples(samples->wavelengths_nm, samples->values);
+  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
+  SPECTILE_ASSIGN(const auto samples, io::read_columns(file));
+  return MeasuredSpectrum::from_samples(samples.wavelengths_nm, samples.values);
 }
 
 Result<Spectrum> load_spectrum(const std::string& path, std::size_t column) {
-  const auto file = io::read_text_file(path);
-  if (!file) return file.error();
-  const bool cgats = io::is_cgats(*file);
+  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
+  const bool cgats = io::is_cgats(file);
   if (!cgats && column > 0) {
     return make_error(ErrorCode::kBadArgument, "{}: has one spectrum, counted from 0; there is no {}", path,
                       column);
   }
-  const auto samples = cgats ? io::read_cgats(*file, column) : io::read_columns(*file);
-  if (!samples) return samples.error();
-  return spectrum_of(*file, *samples);
+  SPECTILE_ASSIGN(const auto samples, cgats ? io::read_cgats(file, column) : io::read_columns(file));
+  return spectrum_of(file, samples);
 }
 
 Result<std::vector<Spectrum>> load_spectra(const std::string& path) {
-  const auto file = io::read_text_file(path);
-  if (!file) return file.error();
-  const auto all = io::is_cgats(*file) ? io::read_all_cgats(*file) : io::read_all_columns(*file);
-  if (!all) return all.error();
+  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
+  SPECTILE_ASSIGN(const auto all, io::is_cgats(file) ? io::read_all_cgats(file) : io::read_all_columns(file));
   std::vector<Spectrum> out;
-  out.reserve(all->size());
-  for (const io::SampleLines& samples : *all) {
-    auto spectrum = spectrum_of(*file, samples);
-    if (!spectrum) return spectrum.error();
-    out.push_back(*std::move(spectrum));
+  out.reserve(all.size());
+  for (const io::SampleLines& samples : all) {
+    SPECTILE_ASSIGN(auto spectrum, spectrum_of(file, samples));
+    out.push_back(std::move(spectrum));
   }
   return out;
 }

@@ -5,9 +5,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/stages/color_stage.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
+#include "src/io/convert/stages/color_stage.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -126,15 +126,12 @@ std::vector<Cell> merged(std::vector<Cell> cells, std::size_t most) {
 }
 
 Result<Census> census_of(const std::string& path, const Upsampler& upsampler, const MethodOptions& options) {
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
-  auto opened =
-      io::RgbSource::open(path, options.layer, tiles::thread_count(options.threads), options.region);
-  if (!opened) return opened.error();
-  io::RgbSource& source = **opened;
-  const io::ColorStage stage(source, upsampler, options, **kernels);
-  auto line = io::ColorLine::create(source.width());
-  if (!line) return line.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
+  SPECTILE_ASSIGN(auto opened, io::RgbSource::open(path, options.layer, tiles::thread_count(options.threads),
+                                                   options.region));
+  io::RgbSource& source = *opened;
+  const io::ColorStage stage(source, upsampler, options, *kernels);
+  SPECTILE_ASSIGN(auto line, io::ColorLine::create(source.width()));
   Census census;
   io::LineStats stats;
   const int lines = io::strip_lines(source.header(), source.planes(), 1);
@@ -143,11 +140,10 @@ Result<Census> census_of(const std::string& path, const Upsampler& upsampler, co
   };
   for (int first = 0; first < source.height(); first += lines) {
     const int count = std::min(lines, source.height() - first);
-    const auto strip = source.read(first, count);
-    if (!strip) return strip.error();
+    SPECTILE_ASSIGN(const auto strip, source.read(first, count));
     for (int y = first; y < first + count; ++y) {
-      stage.line(**strip, y, *line, stats);
-      const float* const rgb[3] = {line->rows[0], line->rows[1], line->rows[2]};
+      stage.line(*strip, y, line, stats);
+      const float* const rgb[3] = {line.rows[0], line.rows[1], line.rows[2]};
       census.add(rgb, static_cast<std::size_t>(source.width()));
     }
     if (options.progress && !options.progress({pixels_to(first + count), pixels_to(source.height())})) {
@@ -166,21 +162,16 @@ Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size
   }
   MethodOptions options = wanted;
   options.quantity = Quantity::kReflectance;
-  const auto bands = Bands::uniform(360, 830, 5);
-  if (!bands) return bands.error();
-  options.bands = *bands;
-  const auto upsampler = io::upsampler_for(options);
-  if (!upsampler) return upsampler.error();
-  const auto census = census_of(path, *upsampler, options);
-  if (!census) return census.error();
-  std::vector<Cell> cells = merged(census->cells(), most);
+  SPECTILE_ASSIGN(options.bands, Bands::uniform(360, 830, 5));
+  SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
+  SPECTILE_ASSIGN(const auto census, census_of(path, upsampler, options));
+  std::vector<Cell> cells = merged(census.cells(), most);
   std::ranges::stable_sort(cells, std::greater<>{}, &Cell::count);
   std::vector<Spectrum> out;
   for (const Cell& cell : cells) {
     const Color color = {cell.mean(0), cell.mean(1), cell.mean(2)};
-    auto spectrum = UpsampledSpectrum::from_rgb(*upsampler, color);
-    if (!spectrum) return spectrum.error();
-    out.emplace_back(*std::move(spectrum));
+    SPECTILE_ASSIGN(auto spectrum, UpsampledSpectrum::from_rgb(upsampler, color));
+    out.emplace_back(std::move(spectrum));
   }
   return out;
 }

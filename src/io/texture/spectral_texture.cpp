@@ -10,11 +10,11 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/texture/evaluators.hpp"
 #include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/sources/coefficient_source.hpp"
 #include "src/io/convert/sources/plan_attribute.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
+#include "src/io/texture/evaluators.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 
@@ -112,20 +112,17 @@ Result<std::shared_ptr<SpectralTexture::Image>> SpectralTexture::Image::open(con
                                                                              int threads) {
   auto image = std::make_shared<Image>();
   image->threads_ = tiles::thread_count(threads);
-  auto input = io::ExrInput::open(path, image->threads_);
-  if (!input) return input.error();
-  for (int part = 0; part < (*input)->parts(); ++part) {
-    if ((*input)->deep(part)) continue;
+  SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, image->threads_));
+  for (int part = 0; part < input->parts(); ++part) {
+    if (input->deep(part)) continue;
     image->part_ = part;
-    if (io::claims_coefficients((*input)->header(part))) {
-      auto source = io::CoefficientSource::open(*std::move(input));
-      if (!source) return source.error();
-      image->source_ = *std::move(source);
+    if (io::claims_coefficients(input->header(part))) {
+      SPECTILE_ASSIGN(image->source_, io::CoefficientSource::open(std::move(input)));
       return image;
     }
-    const auto channels = io::spectral_channels((*input)->header(part), std::nullopt);
+    const auto channels = io::spectral_channels(input->header(part), std::nullopt);
     if (!channels) continue;
-    image->input_ = *std::move(input);
+    image->input_ = std::move(input);
     SPECTILE_TRY(image->choose_channels(*channels));
     return image;
   }
@@ -138,9 +135,7 @@ Result<void> SpectralTexture::Image::choose_channels(const io::SpectralChannels&
   quantity_ = channels.quantity;
   const auto bands = Bands::from_centres(channels.centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path(), bands.error().message);
-  auto planned = io::with_plan(input_->header(part_), *bands, path());
-  if (!planned) return planned.error();
-  bands_ = *std::move(planned);
+  SPECTILE_ASSIGN(bands_, io::with_plan(input_->header(part_), *bands, path()));
   for (const std::string& name : channels.names) {
     const Imf::Channel& channel = input_->header(part_).channels()[name.c_str()];
     if (channel.xSampling != 1 || channel.ySampling != 1) {
@@ -158,12 +153,11 @@ Result<std::unique_ptr<io::Evaluator>> SpectralTexture::Image::evaluator_for(con
   for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
   if (!source_)
     return std::unique_ptr<io::Evaluator>(std::make_unique<io::FullEvaluator>(bands_, channels_, centres));
-  auto rows = rows::SampledRows::at(source_->upsampler(), centres);
-  if (!rows) return rows.error();
+  SPECTILE_ASSIGN(auto rows, rows::SampledRows::at(source_->upsampler(), centres));
   auto planes = source_->planes();
   planes.resize(source_->coefficients());
   return std::unique_ptr<io::Evaluator>(
-      std::make_unique<io::CompactEvaluator>(*std::move(rows), std::move(planes)));
+      std::make_unique<io::CompactEvaluator>(std::move(rows), std::move(planes)));
 }
 
 Result<void> SpectralTexture::Image::read(const std::vector<io::PlaneSpec>& planes, Strip& strip) {
@@ -179,28 +173,25 @@ Result<void> SpectralTexture::Image::evaluate(const Region& region, SampledSpect
   const auto w = static_cast<std::size_t>(region.width);
   SPECTILE_TRY(shape::same_lanes(w * static_cast<std::size_t>(region.height), spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
-  const auto evaluator = evaluator_for(spectra.bands);
-  if (!evaluator) return evaluator.error();
-  const std::vector<io::PlaneSpec>& planes = (*evaluator)->planes();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
+  SPECTILE_ASSIGN(const auto evaluator, evaluator_for(spectra.bands));
+  const std::vector<io::PlaneSpec>& planes = evaluator->planes();
   const std::size_t bands = spectra.bands.count();
   const int step = io::strip_lines(file().header(part_), planes, 1);
   for (int done = 0; done < region.height; done += step) {
     const int first = region.y + done;
     const int lines = std::min(step, region.height - done);
-    auto strip = io::make_strip(planes, width(), first, lines);
-    if (!strip) return strip.error();
-    SPECTILE_TRY(read(planes, **strip));
+    SPECTILE_ASSIGN(auto strip, io::make_strip(planes, width(), first, lines));
+    SPECTILE_TRY(read(planes, *strip));
     // Lines write different lanes. Some thousands of pixels are worth a thread's while.
-    Execution how;
-    how.threads = threads_;
-    how.tile_lanes = kLanesPerBlock * std::max<std::size_t>(1, 4096 / w);
-    tiles::for_blocks(static_cast<std::size_t>(lines), how, [&](std::size_t begin, std::size_t count) {
+    Execution execution;
+    execution.threads = threads_;
+    execution.tile_lanes = kLanesPerBlock * std::max<std::size_t>(1, 4096 / w);
+    tiles::for_blocks(static_cast<std::size_t>(lines), execution, [&](std::size_t begin, std::size_t count) {
       for (std::size_t line = begin; line < begin + count; ++line) {
-        const io::Piece piece = {**strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x),
+        const io::Piece piece = {*strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x),
                                  w};
-        evaluate_line(**kernels, **evaluator, piece, (static_cast<std::size_t>(done) + line) * w, spectra);
+        evaluate_line(*kernels, *evaluator, piece, (static_cast<std::size_t>(done) + line) * w, spectra);
       }
     });
   }
@@ -215,9 +206,8 @@ Result<void> SpectralTexture::Image::evaluate(const Region& region, SampledSpect
 
 Result<SpectralTexture> SpectralTexture::open(const std::string& path, int threads) {
   return io::contained<SpectralTexture>(path, [&]() -> Result<SpectralTexture> {
-    auto image = Image::open(path, threads);
-    if (!image) return image.error();
-    return SpectralTexture(*std::move(image));
+    SPECTILE_ASSIGN(auto image, Image::open(path, threads));
+    return SpectralTexture(std::move(image));
   });
 }
 
@@ -249,12 +239,10 @@ Result<SampledSpectra> SpectralTexture::evaluate(const Region& region,
                                                  std::span<const double> wavelengths_nm) const {
   return io::contained<SampledSpectra>(image_->path(), [&]() -> Result<SampledSpectra> {
     SPECTILE_TRY(check_region(region, width(), height()));
-    const auto bands = bands_at(wavelengths_nm);
-    if (!bands) return bands.error();
-    auto spectra = SampledSpectra::create(
-        *bands, static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
-    if (!spectra) return spectra.error();
-    SPECTILE_TRY(image_->evaluate(region, spectra->span()));
+    SPECTILE_ASSIGN(const auto bands, bands_at(wavelengths_nm));
+    SPECTILE_ASSIGN(auto spectra, SampledSpectra::create(bands, static_cast<std::size_t>(region.width) *
+                                                                    static_cast<std::size_t>(region.height)));
+    SPECTILE_TRY(image_->evaluate(region, spectra.span()));
     return spectra;
   });
 }

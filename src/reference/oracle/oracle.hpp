@@ -4,8 +4,8 @@
 
 #include <array>
 #include <span>
-#include <spectile/spectra/bands.hpp>
 #include <spectile/color/colorimetry.hpp>
+#include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <vector>
 

@@ -171,7 +171,7 @@ TEST_F(AverageImages, KeepsTheWidestTypeOrTheOneAskedFor) {
   const test::Picture limited = average({write("l.exr", large)}, options);
   EXPECT_EQ(limited.at("Y", 1, 0), 65504);
   EXPECT_EQ(limited.at("Y", 2, 0), -65504);
-  EXPECT_EQ(report_.limited_pixels, 2U);
+  EXPECT_EQ(report_.clamped_pixels, 2U);
 }
 
 TEST_F(AverageImages, OfManyIsThatOfAll) {

@@ -76,7 +76,7 @@ TEST(BadPixels, ZeroMakesThemBlackAndCountsThem) {
       const auto report = upsample_image(nonfinite_input(folder, type), folder / "out.exr", options);
       ASSERT_TRUE(report) << report.error().message;
       EXPECT_EQ(report->nonfinite_pixels, 3U);
-      EXPECT_EQ(report->limited_pixels, 0U);
+      EXPECT_EQ(report->clamped_pixels, 0U);
       const test::Picture out = test::read_picture(folder / "out.exr");
       ASSERT_EQ(band_names(out).size(), 60U);
       for (const std::string& name : band_names(out)) {
@@ -169,7 +169,7 @@ TEST(BadPixels, SamplesBeyondHalfAreLimitedAndCounted) {
   UpsampleImageOptions options;
   const auto report = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->limited_pixels, 2U);
+  EXPECT_EQ(report->clamped_pixels, 2U);
   const test::Picture out = test::read_picture(folder / "out.exr");
   for (const std::string& name : band_names(out)) {
     EXPECT_EQ(out.at(name, 1, 0), 65504.0) << name;
@@ -179,7 +179,7 @@ TEST(BadPixels, SamplesBeyondHalfAreLimitedAndCounted) {
   options.pixel = PixelType::kFloat;
   const auto whole = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(whole);
-  EXPECT_EQ(whole->limited_pixels, 0U);
+  EXPECT_EQ(whole->clamped_pixels, 0U);
   EXPECT_GT(test::read_picture(folder / "out.exr").at("T.552,500000nm", 2, 0), 9e29);
 }
 
@@ -192,7 +192,7 @@ TEST(BadPixels, KeptNegativeSamplesBeyondHalfAreLimitedAndCounted) {
   options.negative = Negative::kKeep;
   const auto report = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->limited_pixels, 1U);
+  EXPECT_EQ(report->clamped_pixels, 1U);
   EXPECT_EQ(test::read_picture(folder / "out.exr").at("T.552,500000nm", 1, 0), -65504.0);
 }
 
@@ -207,12 +207,12 @@ TEST(BadPixels, ProjectedColorsBeyondHalfAreLimitedAndCounted) {
   options.target = ColorTarget::kLuminance;
   const auto report = project_image(folder / "in.exr", folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->limited_pixels, 1U);
+  EXPECT_EQ(report->clamped_pixels, 1U);
   EXPECT_EQ(test::read_picture(folder / "out.exr").at("Y", 4, 1), 65504.0);
   options.target = ColorTarget::kSrgb;
   const auto srgb = project_image(folder / "in.exr", folder / "out.exr", options);
   ASSERT_TRUE(srgb) << srgb.error().message;
-  EXPECT_EQ(srgb->limited_pixels, 1U) << "pixels are counted, not their components";
+  EXPECT_EQ(srgb->clamped_pixels, 1U) << "pixels are counted, not their components";
 }
 
 TEST(BadPixels, PixelsOverOneAreCounted) {

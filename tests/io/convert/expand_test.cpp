@@ -30,11 +30,11 @@ class Expand : public testing::TestWithParam<Kind> {
     const auto expanded = expand_image(compact_, out_, expand);
     ASSERT_TRUE(direct) << what << ": " << direct.error().message;
     ASSERT_TRUE(expanded) << what << ": " << expanded.error().message;
-    EXPECT_EQ(expanded->limited_pixels, direct->limited_pixels) << what;
+    EXPECT_EQ(expanded->clamped_pixels, direct->clamped_pixels) << what;
     EXPECT_EQ(expanded->bands, direct->bands) << what;
     EXPECT_EQ(expanded->quantity, direct->quantity) << what;
     EXPECT_EQ(expanded->nonfinite_pixels, 0U) << what;
-    limited_ += expanded->limited_pixels;
+    limited_ += expanded->clamped_pixels;
     const test::Picture want = test::read_picture(folder_ / "direct.exr");
     const test::Picture got = test::read_picture(out_);
     EXPECT_TRUE(got.planes == want.planes) << what;
@@ -118,8 +118,8 @@ TEST_P(Expand, PixelsLimitedInHalfAreThoseWithALargerSampleInFloat) {
     }
     limited += beyond ? 1 : 0;
   }
-  EXPECT_EQ(half->limited_pixels, limited);
-  EXPECT_EQ(full->limited_pixels, 0U);
+  EXPECT_EQ(half->clamped_pixels, limited);
+  EXPECT_EQ(full->clamped_pixels, 0U);
   // Kept negatives are there to be limited; a sigmoid has none.
   EXPECT_EQ(least < -65504, GetParam().method != Method::kSigmoid);
 }

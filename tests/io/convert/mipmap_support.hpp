@@ -160,7 +160,7 @@ class Mipmap : public testing::Test {
     EXPECT_EQ(report->negative_pixels, plain->negative_pixels);
     EXPECT_EQ(report->out_of_gamut_pixels, plain->out_of_gamut_pixels);
     EXPECT_EQ(report->over_one_pixels, plain->over_one_pixels);
-    EXPECT_EQ(report->limited_pixels, plain->limited_pixels);
+    EXPECT_EQ(report->clamped_pixels, plain->clamped_pixels);
     EXPECT_EQ(report->skipped.masked_pixels, plain->skipped.masked_pixels);
     EXPECT_EQ(report->skipped.chunks, plain->skipped.chunks);
     const std::string bytes = file_bytes(folder_ / "mip.exr");

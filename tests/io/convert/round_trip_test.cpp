@@ -78,7 +78,7 @@ void check_round_trip(PixelType pixel) {
   up.compression = {CompressionKind::kNone, -1};
   const auto made = upsample_image(input, folder / "spectral.exr", up);
   ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->limited_pixels, 0U);
+  EXPECT_EQ(made->clamped_pixels, 0U);
   ProjectImageOptions down;
   down.pixel = PixelType::kFloat;
   down.compression = up.compression;

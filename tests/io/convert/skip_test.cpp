@@ -54,7 +54,7 @@ class Skipping : public testing::Test {
         EXPECT_EQ(report->negative_pixels, plain->negative_pixels);
         EXPECT_EQ(report->over_one_pixels, plain->over_one_pixels);
         EXPECT_EQ(report->out_of_gamut_pixels, plain->out_of_gamut_pixels);
-        EXPECT_EQ(report->limited_pixels, plain->limited_pixels);
+        EXPECT_EQ(report->clamped_pixels, plain->clamped_pixels);
         EXPECT_EQ(report->notes, plain->notes);
         if (!skip) expect_nothing(report->skipped);
         if (skip && threads == 4) expect_same(report->skipped, last.skipped);

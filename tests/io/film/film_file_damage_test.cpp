@@ -4,8 +4,8 @@
 #include <random>
 #include <spectile/image/film_file.hpp>
 
-#include "tests/support/exr_files.hpp"
 #include "tests/film/film_support.hpp"
+#include "tests/support/exr_files.hpp"
 
 namespace spectile::test {
 namespace {

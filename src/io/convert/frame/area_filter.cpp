@@ -10,14 +10,6 @@
 
 namespace spectile::io {
 
-LevelSize level_size(LevelSize image, int level) {
-  return {std::max(1, image.width >> level), std::max(1, image.height >> level)};
-}
-
-int level_count(LevelSize image) {
-  return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(image.width, image.height))));
-}
-
 LevelTree::LevelTree(LevelSize image, int first, int count) : image_(image) {
   for (int i = 0; i < count; ++i) {
     Level level;

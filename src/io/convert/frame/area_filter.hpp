@@ -7,21 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "src/io/exr/level_size.hpp"
+
 namespace spectile::io {
-
-struct LevelSize {
-  int width = 0;
-  int height = 0;
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  }
-  friend bool operator==(const LevelSize&, const LevelSize&) = default;
-};
-
-/// Size of a mip level, rounded down; level 0 is the image. Source: Technical Introduction to OpenEXR.
-LevelSize level_size(LevelSize image, int level);
-/// Levels down to one pixel, level 0 among them.
-int level_count(LevelSize image);
 
 /// Levels that are made together, and what each of them is made from. An average of averages is that of the
 /// whole area where a level's pixels are whole pixels of the next; elsewhere a level is made from the image.

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "src/io/exr/exr_writer.hpp"
 #include "src/io/convert/frame/line_stats.hpp"
+#include "src/io/exr/exr_writer.hpp"
 #include "src/io/exr/strips.hpp"
 
 namespace spectile::io {

@@ -14,10 +14,9 @@ namespace spectile::io {
 Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats) {
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
-    auto row = FloatBuffer::create(floats);
-    if (!row) return row.error();
-    std::fill_n(row->data(), row->size(), 0.0F);
-    rows_.push_back(*std::move(row));
+    SPECTILE_ASSIGN(auto row, FloatBuffer::create(floats));
+    std::fill_n(row.data(), row.size(), 0.0F);
+    rows_.push_back(std::move(row));
   }
   return {};
 }

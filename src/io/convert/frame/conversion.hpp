@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "kernels/abi.hpp"
-#include "src/io/exr/exr_writer.hpp"
 #include "src/io/convert/frame/line_stats.hpp"
+#include "src/io/exr/exr_writer.hpp"
 #include "src/io/exr/strips.hpp"
 
 namespace spectile::io {

@@ -43,8 +43,8 @@ struct LineStats {
   std::uint64_t over_one = 0;
   std::uint64_t limited = 0;
   std::uint64_t masked = 0;
-  std::uint64_t black = 0;           // masked ones too
-  std::uint64_t constant = 0;        // in whole blocks of one colour, not black
+  std::uint64_t black = 0;     // masked ones too
+  std::uint64_t constant = 0;  // in whole blocks of one colour, not black
   SkipCosts costs;
   void add(const LineStats& later);
   /// The same of pixels elsewhere.

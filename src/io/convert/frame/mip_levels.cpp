@@ -57,9 +57,7 @@ class LevelMaker : public LineJob {
     const std::size_t line = rows_ * stride_;
     // At least a line for each thread.
     batch_lines_ = std::max(fitting_lines(line * sizeof(float), 64), static_cast<int>(workers_));
-    auto batch = FloatBuffer::create(line * static_cast<std::size_t>(batch_lines_));
-    if (!batch) return batch.error();
-    batch_ = *std::move(batch);
+    SPECTILE_ASSIGN(batch_, FloatBuffer::create(line * static_cast<std::size_t>(batch_lines_)));
     return {};
   }
 
@@ -81,18 +79,16 @@ class LevelMaker : public LineJob {
     if (!keep) return {};
     kept_from_ = level;
     for (const LevelTree::Level& one : tree_->levels()) {
-      auto strip = make_strip(planes_, one.size.width, 0, one.size.height);
-      if (!strip) return strip.error();
-      targets_.push_back(*std::move(strip));
+      SPECTILE_ASSIGN(auto strip, make_strip(planes_, one.size.width, 0, one.size.height));
+      targets_.push_back(std::move(strip));
     }
     return advance(image_.height, true);
   }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
     if (kept_from_ > 0) return targets_[static_cast<std::size_t>(writer_.level() - kept_from_)];
-    auto strip = make_strip(planes_, writer_.width(), first_line, lines);
-    if (!strip) return strip.error();
-    targets_ = {*strip};
+    SPECTILE_ASSIGN(auto strip, make_strip(planes_, writer_.width(), first_line, lines));
+    targets_ = {strip};
     SPECTILE_TRY(advance(lines_needed(image_.height, writer_.height(), first_line + lines), false));
     targets_.clear();
     return strip;
@@ -117,9 +113,7 @@ class LevelMaker : public LineJob {
     while (next_ < end) {
       if (!source_ || !source_->holds(next_, 1)) {
         source_.reset();
-        auto strip = job_.read(next_, std::min(source_lines_, image_.height - next_));
-        if (!strip) return strip.error();
-        source_ = *std::move(strip);
+        SPECTILE_ASSIGN(source_, job_.read(next_, std::min(source_lines_, image_.height - next_)));
         if (tells && options_.progress && !options_.progress(writer_.progress())) {
           return make_error(ErrorCode::kCancelled, "stopped on request");
         }
@@ -134,8 +128,8 @@ class LevelMaker : public LineJob {
 
   /// First the rows of all lines, side by side; then each plane's averages, in the order of the lines.
   void take(int lines) {
-    const Execution how = {options_.threads, 1};
-    tiles::for_blocks(workers_, how, [&](std::size_t first, std::size_t count) {
+    const Execution execution = {options_.threads, 1};
+    tiles::for_blocks(workers_, execution, [&](std::size_t first, std::size_t count) {
       for (std::size_t w = first; w < first + count; ++w) {
         const auto part = [&](std::size_t i) {
           return static_cast<int>(i * static_cast<std::size_t>(lines) / workers_);
@@ -147,7 +141,7 @@ class LevelMaker : public LineJob {
         }
       }
     });
-    tiles::for_blocks(planes_.size(), how, [&](std::size_t first, std::size_t count) {
+    tiles::for_blocks(planes_.size(), execution, [&](std::size_t first, std::size_t count) {
       for (std::size_t p = first; p < first + count; ++p) {
         for (int i = 0; i < lines; ++i) take(p, i);
       }

@@ -29,9 +29,8 @@ Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std:
 Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
                             const ImageOptions& options, const Refusal& refusal, LineStats* found) {
   const auto forbids = [&refusal](const LineStats& so_far) { return refusal(so_far).has_value(); };
-  const auto run = run_conversion(job, writer, slots, strip_lines, options, forbids);
-  if (!run) return run.error();
-  const LineStats& stats = *run;
+  SPECTILE_ASSIGN(const auto run, run_conversion(job, writer, slots, strip_lines, options, forbids));
+  const LineStats& stats = run;
   if (auto refused = refusal(stats)) return *std::move(refused);
   if (writer.levels() > 1) {
     SPECTILE_TRY(write_levels(*job.filtered(), writer, slots, strip_lines, options));
@@ -45,7 +44,7 @@ Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, 
   report.negative_pixels = stats.negative.count;
   report.over_one_pixels = stats.over_one;
   report.out_of_gamut_pixels = stats.outside.count;
-  report.limited_pixels = stats.limited;
+  report.clamped_pixels = stats.limited;
   report.bytes_written = writer.bytes_written();
   if (options.skip) report.skipped = skip_stats(stats);
   return report;

@@ -1,6 +1,4 @@
 // Settings as one line of text, and whether an image that holds one needs to be made anew.
-#include "src/io/convert/frame/settings.hpp"
-
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <fmt/ranges.h>
@@ -8,13 +6,14 @@
 
 #include <bit>
 #include <cstdint>
-#include <spectile/plan/plan.hpp>
 #include <spectile/image/settings.hpp>
+#include <spectile/plan/plan.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/io/exr/exr_input.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
+#include "src/io/exr/attributes.hpp"
+#include "src/io/exr/exr_input.hpp"
 #include "src/io/exr/strips.hpp"
 
 namespace spectile {
@@ -260,9 +259,8 @@ std::string settings_text(const ExpandImageOptions& options) {
 
 Result<std::string> settings_of(const std::string& path) {
   return io::contained<std::string>(path, [&]() -> Result<std::string> {
-    const auto input = io::ExrInput::open(path, 1);
-    if (!input) return input.error();
-    return settings_in(**input);
+    SPECTILE_ASSIGN(const auto input, io::ExrInput::open(path, 1));
+    return settings_in(*input);
   });
 }
 
@@ -275,10 +273,9 @@ bool up_to_date(const std::string& output, std::span<const std::string> made_fro
     if (::stat(file.c_str(), &source) != 0 || !is_before(source.st_mtim, made.st_mtim)) return false;
   }
   const auto same = io::contained<bool>(output, [&]() -> Result<bool> {
-    const auto input = io::ExrInput::open(output, 1);
-    if (!input) return input.error();
-    if (settings.empty() || settings_in(**input) != settings) return false;
-    SPECTILE_TRY(read_last(**input));
+    SPECTILE_ASSIGN(const auto input, io::ExrInput::open(output, 1));
+    if (settings.empty() || settings_in(*input) != settings) return false;
+    SPECTILE_TRY(read_last(*input));
     return true;
   });
   return same && *same;

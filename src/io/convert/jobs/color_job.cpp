@@ -25,12 +25,9 @@ Result<void> ColorJob::prepare_colors(const ExrWriter& writer, int width, std::s
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
     Work work;
-    auto color = ColorLine::create(width);
-    if (!color) return color.error();
-    work.color = *std::move(color);
-    auto halves = FloatBuffer::create(work.color.padded / 2);
-    if (!halves) return halves.error();
-    work.halves = *std::move(halves);
+    SPECTILE_ASSIGN(auto color, ColorLine::create(width));
+    work.color = std::move(color);
+    SPECTILE_ASSIGN(work.halves, FloatBuffer::create(work.color.padded / 2));
     works_.push_back(std::move(work));
   }
   return {};

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 
 namespace spectile::io {
 

@@ -6,15 +6,15 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/stages/band_channels.hpp"
-#include "src/io/convert/stages/band_filter.hpp"
-#include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/frame/conversion.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/frame/settings.hpp"
+#include "src/io/convert/sources/coefficient_source.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
+#include "src/io/convert/stages/band_channels.hpp"
+#include "src/io/convert/stages/band_filter.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
+#include "src/io/exr/attributes.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -59,9 +59,8 @@ class ExpandJob : public io::FilteredJob {
       auto coefficients = FloatBuffer::create(4 * padded_);
       if (!bands) return bands.error();
       if (!coefficients) return coefficients.error();
-      auto filtered = filter_.work(source_.width());
-      if (!filtered) return filtered.error();
-      works_.push_back({*std::move(coefficients), *std::move(bands), *std::move(filtered)});
+      SPECTILE_ASSIGN(auto filtered, filter_.work(source_.width()));
+      works_.push_back({*std::move(coefficients), *std::move(bands), std::move(filtered)});
     }
     return {};
   }
@@ -166,21 +165,17 @@ void note_continued(const Upsampler& upsampler, const Bands& bands, std::vector<
 Result<ImageReport> expand_file(const std::string& input, const std::string& output,
                                 const ExpandImageOptions& options) {
   SPECTILE_TRY(io::check_distinct(input, output));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  auto file = io::ExrInput::open(input, threads);
-  if (!file) return file.error();
-  auto source = io::CoefficientSource::open(*std::move(file), options.region);
-  if (!source) return source.error();
-  const Upsampler& upsampler = (*source)->upsampler();
+  SPECTILE_ASSIGN(auto file, io::ExrInput::open(input, threads));
+  SPECTILE_ASSIGN(auto source, io::CoefficientSource::open(std::move(file), options.region));
+  const Upsampler& upsampler = source->upsampler();
   const Bands bands = options.bands.value_or(upsampler.bands());
-  const auto rows = rows::SampledRows::over(upsampler, bands);
-  if (!rows) return rows.error();
+  SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, bands));
 
-  ExpandJob job(**source, *rows, options, **kernels);
+  ExpandJob job(*source, rows, options, *kernels);
   io::ImageSpec spec;
-  spec.source = &(*source)->header();
+  spec.source = &source->header();
   spec.channels = job.channels(bands);
   spec.compression = options.compression;
   spec.tile = io::tiles_of(options);
@@ -189,24 +184,22 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
   MethodOptions made;
   if (upsampler.options().light) {
-    made.light = NamedLight{io::light_name_of((*source)->header()), *upsampler.options().light};
+    made.light = NamedLight{io::light_name_of(source->header()), *upsampler.options().light};
   }
   spec.text_attributes = io::method_attributes(upsampler, made, false);
   io::add_layout_attributes(spec.text_attributes, upsampler.quantity(), bands);
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
-  auto writer = io::ExrWriter::create(output, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
+  const std::size_t slots = io::slot_count(spec, source->width(), threads);
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
 
-  const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options,
-                               io::at_nonfinite(input, options, (*source)->offset()));
-  if (!converted) return converted.error();
-  ImageReport report = *std::move(converted);
+  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
+  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options,
+                                              io::at_nonfinite(input, options, source->offset())));
+  ImageReport report = std::move(converted);
   report.bands = bands.count();
   report.quantity = upsampler.quantity();
-  report.notes = (*source)->notes();
+  report.notes = source->notes();
   note_continued(upsampler, bands, report.notes);
   return report;
 }

@@ -89,22 +89,19 @@ void describe_header(const Imf::Header& header, ImageInfo& info) {
 }
 
 Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads) {
-  auto input = io::ExrInput::open(path, tiles::thread_count(threads));
-  if (!input) return input.error();
+  SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
   int part = 0;
-  while ((*input)->deep(part)) ++part;
-  const Imf::Header& header = (*input)->header(part);
+  while (input->deep(part)) ++part;
+  const Imf::Header& header = input->header(part);
   ImageInfo info;
   describe_header(header, info);
-  info.parts = (*input)->parts();
+  info.parts = input->parts();
   const auto spectral = io::spectral_channels(header, std::nullopt);
   if (spectral) {
     info.quantity = spectral->quantity;
     const auto bands = Bands::from_centres(spectral->centres_nm);
     if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
-    const auto planned = io::with_plan(header, *bands, path);
-    if (!planned) return planned.error();
-    info.bands = *planned;
+    SPECTILE_ASSIGN(info.bands, io::with_plan(header, *bands, path));
   }
   if (pixel &&
       ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {
@@ -124,23 +121,22 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
   const std::size_t first_shown = spectral ? planes.size() - spectral->names.size() : 0;
   for (int first = 0; first < info.height && !planes.empty(); first += step) {
     const int lines = std::min(step, info.height - first);
-    auto strip = io::make_strip(planes, info.width, first, lines);
-    if (!strip) return strip.error();
-    SPECTILE_TRY(io::fill_strip(**input, part, planes, **strip));
+    SPECTILE_ASSIGN(auto strip, io::make_strip(planes, info.width, first, lines));
+    SPECTILE_TRY(io::fill_strip(*input, part, planes, *strip));
     // Channels side by side over the threads; each has its own counts.
-    Execution how;
-    how.threads = threads;
-    how.tile_lanes = kLanesPerBlock;
-    tiles::for_blocks(planes.size(), how, [&](std::size_t plane, std::size_t) {
+    Execution execution;
+    execution.threads = threads;
+    execution.tile_lanes = kLanesPerBlock;
+    tiles::for_blocks(planes.size(), execution, [&](std::size_t plane, std::size_t) {
       for (int line = first; line < first + lines; ++line) {
-        count_line(**strip, plane, planes[plane].type, line, static_cast<std::size_t>(info.width),
+        count_line(*strip, plane, planes[plane].type, line, static_cast<std::size_t>(info.width),
                    info.channels[plane]);
       }
     });
-    if (pixel && (*strip)->holds((*pixel)[1], 1)) {
+    if (pixel && strip->holds((*pixel)[1], 1)) {
       for (std::size_t plane = first_shown; plane < planes.size(); ++plane) {
-        info.pixel.push_back(sample_of(**strip, plane, planes[plane].type, (*pixel)[1],
-                                       static_cast<std::size_t>((*pixel)[0])));
+        info.pixel.push_back(
+            sample_of(*strip, plane, planes[plane].type, (*pixel)[1], static_cast<std::size_t>((*pixel)[0])));
       }
     }
   }

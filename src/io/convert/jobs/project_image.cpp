@@ -6,15 +6,15 @@
 #include <spectile/image/settings.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/color/color_matrix.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/jobs/color_job.hpp"
-#include "src/io/convert/stages/lines.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/frame/settings.hpp"
+#include "src/io/convert/jobs/color_job.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
-#include "src/color/color_matrix.hpp"
+#include "src/io/convert/stages/lines.hpp"
+#include "src/io/exr/attributes.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -39,9 +39,9 @@ class ProjectJob : public io::ColorJob {
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
     for (std::size_t i = 0; i < slots; ++i) {
-      auto spectra = FloatBuffer::create(source_.bands().count() * kLanesPerBlock * tile_blocks());
-      if (!spectra) return spectra.error();
-      spectra_.push_back(*std::move(spectra));
+      SPECTILE_ASSIGN(auto spectra,
+                      FloatBuffer::create(source_.bands().count() * kLanesPerBlock * tile_blocks()));
+      spectra_.push_back(std::move(spectra));
     }
     return prepare_colors(writer, source_.width(), slots);
   }
@@ -111,31 +111,27 @@ Result<Projector> projector_for(const io::SpectralSource& source, const std::str
     return Projector::emissive(source.bands(), options.observer);
   }
   if (options.light) return Projector::reflective(source.bands(), *options.light, options.observer);
-  const auto d65 = illuminant("D65");
-  if (!d65) return d65.error();
-  return Projector::reflective(source.bands(), *d65, options.observer);
+  SPECTILE_ASSIGN(const auto d65, illuminant("D65"));
+  return Projector::reflective(source.bands(), d65, options.observer);
 }
 
 Result<ImageReport> project_file(const std::string& input, const std::string& output,
                                  const ProjectImageOptions& options) {
   SPECTILE_TRY(io::check_distinct(input, output));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  auto source = io::SpectralSource::open(input, options.quantity, threads, options.region);
-  if (!source) return source.error();
-  if (options.adaptation != Adaptation::kNone && (*source)->quantity() == Quantity::kIlluminant) {
+  SPECTILE_ASSIGN(auto source, io::SpectralSource::open(input, options.quantity, threads, options.region));
+  if (options.adaptation != Adaptation::kNone && source->quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
   }
   if (options.adaptation != Adaptation::kNone && options.target == ColorTarget::kLuminance) {
     return make_error(ErrorCode::kBadArgument, "{}: luminance alone cannot be adapted", input);
   }
-  const auto projector = projector_for(**source, input, options);
-  if (!projector) return projector.error();
+  SPECTILE_ASSIGN(const auto projector, projector_for(*source, input, options));
 
-  ProjectJob job(**source, *projector, options, **kernels);
+  ProjectJob job(*source, projector, options, *kernels);
   io::ImageSpec spec;
-  spec.source = &(*source)->header();
+  spec.source = &source->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
   spec.tile = io::tiles_of(options);
@@ -146,19 +142,17 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
                        {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
   if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
-  auto writer = io::ExrWriter::create(output, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
+  const std::size_t slots = io::slot_count(spec, source->width(), threads);
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
 
-  const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
-  auto converted = io::convert(job, **writer, slots, lines, options,
-                               io::at_nonfinite(input, options, (*source)->offset()));
-  if (!converted) return converted.error();
-  ImageReport report = *std::move(converted);
-  report.bands = (*source)->bands().count();
-  report.quantity = (*source)->quantity();
-  report.notes = (*source)->notes();
+  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
+  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options,
+                                              io::at_nonfinite(input, options, source->offset())));
+  ImageReport report = std::move(converted);
+  report.bands = source->bands().count();
+  report.quantity = source->quantity();
+  report.notes = source->notes();
   return report;
 }
 

@@ -1,19 +1,19 @@
 // relight_image: a texture becomes its colour under another light, line by line, without its spectra.
 #include <cstring>
 #include <spectile/image/image.hpp>
-#include <spectile/upsampling/relight.hpp>
 #include <spectile/image/settings.hpp>
+#include <spectile/upsampling/relight.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/jobs/color_job.hpp"
-#include "src/io/convert/stages/color_stage.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/frame/settings.hpp"
-#include "src/upsampling/relight_rows.hpp"
+#include "src/io/convert/jobs/color_job.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
+#include "src/io/convert/stages/color_stage.hpp"
+#include "src/io/exr/attributes.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/upsampling/relight_rows.hpp"
 
 namespace spectile {
 namespace {
@@ -36,9 +36,9 @@ class RelightJob : public io::ColorJob {
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
     for (std::size_t i = 0; i < slots; ++i) {
-      auto spectra = FloatBuffer::create(relighter_.projector().bands().count() * kLanesPerBlock);
-      if (!spectra) return spectra.error();
-      spectra_.push_back(*std::move(spectra));
+      SPECTILE_ASSIGN(auto spectra,
+                      FloatBuffer::create(relighter_.projector().bands().count() * kLanesPerBlock));
+      spectra_.push_back(std::move(spectra));
     }
     return prepare_colors(writer, source_.width(), slots);
   }
@@ -75,47 +75,41 @@ class RelightJob : public io::ColorJob {
 Result<ImageReport> relight_file(const std::string& input, const std::string& output,
                                  const RelightImageOptions& options) {
   SPECTILE_TRY(io::check_distinct(input, output));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  const auto upsampler = io::upsampler_for(options);
-  if (!upsampler) return upsampler.error();
-  const auto projector = Projector::reflective(options.bands, options.under.spectrum, options.seen_by);
-  if (!projector) return projector.error();
-  const Matrix3 matrix = io::color_matrix(*projector, options.target, options.adaptation);
-  const auto relighter = Relighter::create(*upsampler, *projector, matrix);
-  if (!relighter) return relighter.error();
-  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
-  if (!source) return source.error();
+  SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
+  SPECTILE_ASSIGN(const auto projector,
+                  Projector::reflective(options.bands, options.under.spectrum, options.seen_by));
+  const Matrix3 matrix = io::color_matrix(projector, options.target, options.adaptation);
+  SPECTILE_ASSIGN(const auto relighter, Relighter::create(upsampler, projector, matrix));
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.layer, threads, options.region));
 
-  RelightJob job(**source, *relighter, options, **kernels);
+  RelightJob job(*source, relighter, options, *kernels);
   io::ImageSpec spec;
-  spec.source = &(*source)->header();
+  spec.source = &source->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
   spec.tile = io::tiles_of(options);
   spec.mipmap = options.mipmap;
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(), {"chromaticities", "colorInteropID", "spectileSeenUnder"});
-  spec.text_attributes = io::method_attributes(*upsampler, options, false);
+  spec.text_attributes = io::method_attributes(upsampler, options, false);
   spec.text_attributes.emplace_back("spectileSeenUnder", options.under.name);
   if (options.target == ColorTarget::kSrgb) {
     spec.text_attributes.emplace_back("colorInteropID", "lin_rec709_scene");
   }
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
-  auto writer = io::ExrWriter::create(output, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
-  const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
+  const std::size_t slots = io::slot_count(spec, source->width(), threads);
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
+  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  auto converted = io::convert(job, **writer, slots, lines, options, refusal);
-  if (!converted) return converted.error();
-  ImageReport report = *std::move(converted);
+  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options, refusal));
+  ImageReport report = std::move(converted);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
-  report.notes = (*source)->notes();
+  report.notes = source->notes();
   return report;
 }
 

@@ -5,36 +5,31 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/stages/lines.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
+#include "src/io/convert/stages/lines.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
 namespace {
 
 Result<RgbImage> read(const std::string& path, const std::string& layer, int threads) {
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
-  auto source = io::RgbSource::open(path, layer, tiles::thread_count(threads));
-  if (!source) return source.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(path, layer, tiles::thread_count(threads)));
   RgbImage image;
-  image.width = (*source)->width();
-  image.height = (*source)->height();
+  image.width = source->width();
+  image.height = source->height();
   const auto width = static_cast<std::size_t>(image.width);
-  auto rgb = ColorLanes::create(width * static_cast<std::size_t>(image.height));
-  if (!rgb) return rgb.error();
-  image.rgb = *std::move(rgb);
-  auto line_memory = io::ColorLine::create(image.width);
-  if (!line_memory) return line_memory.error();
-  const int step = io::strip_lines((*source)->header(), (*source)->planes(), 1);
+  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(width * static_cast<std::size_t>(image.height)));
+  image.rgb = std::move(rgb);
+  SPECTILE_ASSIGN(auto line_memory, io::ColorLine::create(image.width));
+  const int step = io::strip_lines(source->header(), source->planes(), 1);
   for (int first = 0; first < image.height; first += step) {
-    const auto strip = (*source)->read(first, std::min(step, image.height - first));
-    if (!strip) return strip.error();
-    for (int line = first; line < first + (*strip)->lines; ++line) {
-      (*source)->float_rows(**kernels, **strip, line, line_memory->rows);
+    SPECTILE_ASSIGN(const auto strip, source->read(first, std::min(step, image.height - first)));
+    for (int line = first; line < first + strip->lines; ++line) {
+      source->float_rows(*kernels, *strip, line, line_memory.rows);
       for (std::size_t k = 0; k < 3; ++k) {
-        std::memcpy(image.rgb.span().c[k] + static_cast<std::size_t>(line) * width, line_memory->rows[k],
+        std::memcpy(image.rgb.span().c[k] + static_cast<std::size_t>(line) * width, line_memory.rows[k],
                     width * sizeof(float));
       }
     }
@@ -84,8 +79,7 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
     return make_error(ErrorCode::kSizeMismatch, "{} lanes are not an image of {} x {}", rgb.lanes, width,
                       height);
   }
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const Imf::Header header(width, height);
   const int threads = tiles::thread_count(options.threads);
   const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
@@ -94,14 +88,13 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
   spec.channels = {{"R", type}, {"G", type}, {"B", type}};
   spec.compression = options.compression;
   const std::size_t slots = io::slot_count(spec, width, threads);
-  auto writer = io::ExrWriter::create(path, spec, slots);
-  if (!writer) return writer.error();
-  RgbJob job(rgb, width, options.pixel, **kernels);
-  SPECTILE_TRY(job.prepare(**writer, slots));
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
+  RgbJob job(rgb, width, options.pixel, *kernels);
+  SPECTILE_TRY(job.prepare(*writer, slots));
   const auto stats =
-      io::run_conversion(job, **writer, slots, height, options, [](const io::LineStats&) { return false; });
+      io::run_conversion(job, *writer, slots, height, options, [](const io::LineStats&) { return false; });
   if (!stats) return stats.error();
-  return (*writer)->commit();
+  return writer->commit();
 }
 
 }  // namespace

@@ -6,20 +6,20 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/convert/frame/conversion.hpp"
+#include "src/io/convert/frame/mip_levels.hpp"
+#include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
+#include "src/io/convert/sources/pixel_mask.hpp"
+#include "src/io/convert/sources/rgb_source.hpp"
 #include "src/io/convert/stages/band_channels.hpp"
 #include "src/io/convert/stages/band_filter.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/stages/color_stage.hpp"
-#include "src/io/convert/frame/conversion.hpp"
 #include "src/io/convert/stages/line_solver.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
-#include "src/io/convert/frame/mip_levels.hpp"
-#include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/sources/pixel_mask.hpp"
-#include "src/io/convert/sources/rgb_source.hpp"
-#include "src/io/convert/frame/settings.hpp"
-#include "src/upsampling/method_rows.hpp"
+#include "src/io/exr/attributes.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
 namespace {
@@ -73,19 +73,11 @@ class UpsampleJob : public io::FilteredJob {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
       Work work;
-      auto rgb = io::ColorLine::create(source_.width());
-      if (!rgb) return rgb.error();
-      work.rgb = *std::move(rgb);
+      SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(source_.width()));
       work.masked.resize(static_cast<std::size_t>(source_.width()));
-      auto solving = solver_.work(source_.width());
-      if (!solving) return solving.error();
-      work.solving = *std::move(solving);
-      auto bands = packer_.work();
-      if (!bands) return bands.error();
-      work.bands = *std::move(bands);
-      auto filtered = filter_.work(source_.width());
-      if (!filtered) return filtered.error();
-      work.filtered = *std::move(filtered);
+      SPECTILE_ASSIGN(work.solving, solver_.work(source_.width()));
+      SPECTILE_ASSIGN(work.bands, packer_.work());
+      SPECTILE_ASSIGN(work.filtered, filter_.work(source_.width()));
       works_.push_back(std::move(work));
     }
     return {};
@@ -94,11 +86,10 @@ class UpsampleJob : public io::FilteredJob {
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
     auto strip = source_.read(first_line, lines);
     if (!strip) return strip;
-    const auto colored = mask_.apply(**strip);
-    if (!colored) return colored.error();
+    SPECTILE_ASSIGN(const auto colored, mask_.apply(**strip));
     // Mip levels read the lines again.
     if (first_line >= counted_lines_) {
-      masked_colored_ += *colored;
+      masked_colored_ += colored;
       counted_lines_ = first_line + lines;
     }
     return strip;
@@ -223,28 +214,23 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
                              const UpsampleImageOptions& options) {
   SPECTILE_TRY(io::check_distinct(input, output));
   if (options.masking == Masking::kFile) SPECTILE_TRY(io::check_distinct(options.mask, output));
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  const auto upsampler = io::upsampler_for(options);
-  if (!upsampler) return upsampler.error();
-  if (options.mipmap && options.store == Store::kCoefficients && !io::linear_in_coefficients(*upsampler)) {
+  SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
+  if (options.mipmap && options.store == Store::kCoefficients && !io::linear_in_coefficients(upsampler)) {
     return make_error(
         ErrorCode::kBadArgument,
         "coefficients of {} have no mip levels: the spectrum of their average is not the average of "
         "the spectra, as it is for {}; store spectra instead",
         to_string(options.method), to_string(Method::kMallett));
   }
-  auto source = io::RgbSource::open(input, options.layer, threads, options.region);
-  if (!source) return source.error();
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.layer, threads, options.region));
 
-  auto mask = io::PixelMask::open(options, **source, threads);
-  if (!mask) return mask.error();
-  const auto rows = rows::SampledRows::over(*upsampler, upsampler->bands());
-  if (!rows) return rows.error();
-  UpsampleJob job(**source, *mask, *upsampler, *rows, options, **kernels);
+  SPECTILE_ASSIGN(auto mask, io::PixelMask::open(options, *source, threads));
+  SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, upsampler.bands()));
+  UpsampleJob job(*source, mask, upsampler, rows, options, *kernels);
   io::ImageSpec spec;
-  spec.source = &(*source)->header();
+  spec.source = &source->header();
   spec.channels = job.channels();
   spec.compression = options.compression;
   spec.tile = io::tiles_of(options);
@@ -252,24 +238,22 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   const bool coefficients = options.store == Store::kCoefficients;
   spec.replaced = io::method_attribute_names();
   for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
-  spec.text_attributes = io::method_attributes(*upsampler, options, coefficients);
+  spec.text_attributes = io::method_attributes(upsampler, options, coefficients);
   if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity, options.bands);
   spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, (*source)->width(), threads);
-  auto writer = io::ExrWriter::create(output, spec, slots);
-  if (!writer) return writer.error();
-  SPECTILE_TRY(job.prepare(**writer, slots + io::filter_slots(options)));
+  const std::size_t slots = io::slot_count(spec, source->width(), threads);
+  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
+  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
 
-  const int lines = io::strip_lines(*spec.source, (*source)->planes(), (*writer)->lines_per_chunk());
+  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
   LineStats stats;
-  auto converted = io::convert(job, **writer, slots, lines, options, refusal, &stats);
-  if (!converted) return converted.error();
-  ImageReport report = *std::move(converted);
+  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options, refusal, &stats));
+  ImageReport report = std::move(converted);
   report.bands = options.bands.count();
   report.quantity = options.quantity;
   report.color_space = job.stage().space().description;
-  report.notes = (*source)->notes();
+  report.notes = source->notes();
   if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
     report.notes.push_back(
         fmt::format("{} pixel{} of alpha 0 with a colour: they become black; --mask none keeps them",

@@ -7,16 +7,16 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/stages/color_stage.hpp"
-#include "src/io/convert/stages/lines.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
-#include "src/upsampling/method_rows.hpp"
+#include "src/io/convert/stages/color_stage.hpp"
+#include "src/io/convert/stages/lines.hpp"
 #include "src/lanes/tiles.hpp"
-#include "src/upsampling/working_space.hpp"
 #include "src/reference/oracle/oracle.hpp"
 #include "src/reference/table.hpp"
+#include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/working_space.hpp"
 
 namespace spectile {
 namespace {
@@ -89,9 +89,8 @@ Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptio
   UpsamplingOracle out{upsampler, {}, {}};
   if (!rows::mixes_bases(upsampler)) {
     const MeasuredSpectrum light = options.light ? options.light->spectrum : *illuminant("D65");
-    auto space = working_space(options.bands, options.quantity, kRec709, light, options.observer);
-    if (!space) return space.error();
-    out.space = *std::move(space);
+    SPECTILE_ASSIGN(out.space,
+                    working_space(options.bands, options.quantity, kRec709, light, options.observer));
     return out;
   }
   // The published bases have an oracle of their own; the exact ones are double already.
@@ -112,9 +111,8 @@ Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampl
                               const float* const rgb[3], std::size_t width, VerifyReport& report) {
   const Upsampler& upsampler = oracle.upsampler;
   const std::size_t bands = upsampler.bands().count();
-  auto memory = FloatBuffer::create(2 * bands * kLanesPerBlock);
-  if (!memory) return memory.error();
-  float* const ours = memory->data();
+  SPECTILE_ASSIGN(auto memory, FloatBuffer::create(2 * bands * kLanesPerBlock));
+  float* const ours = memory.data();
   float* const expected = ours + bands * kLanesPerBlock;
   const auto run = [&](const kernels::KernelTable& table, const float* const in[3], float* out) {
     alignas(64) float c[4][kLanesPerBlock];
@@ -145,9 +143,8 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
                               const std::vector<std::array<double, 3>>& oracle_weights,
                               VerifyReport& report) {
   const std::size_t bands = source.bands().count();
-  auto memory = FloatBuffer::create((bands + 6) * kLanesPerBlock);
-  if (!memory) return memory.error();
-  float* const block = memory->data();
+  SPECTILE_ASSIGN(auto memory, FloatBuffer::create((bands + 6) * kLanesPerBlock));
+  float* const block = memory.data();
   float* const ours = block + bands * kLanesPerBlock;
   float* const expected = ours + 3 * kLanesPerBlock;
   const auto width = static_cast<std::size_t>(source.width());
@@ -183,10 +180,10 @@ template <class Check>
 Result<void> over_lines(int first, int lines, int threads, VerifyReport& total, Check check) {
   std::vector<VerifyReport> reports(static_cast<std::size_t>(lines));
   std::vector<Result<void>> results(static_cast<std::size_t>(lines));
-  Execution how;
-  how.threads = threads;
-  how.tile_lanes = kLanesPerBlock;
-  tiles::for_blocks(reports.size(), how, [&](std::size_t i, std::size_t) {
+  Execution execution;
+  execution.threads = threads;
+  execution.tile_lanes = kLanesPerBlock;
+  tiles::for_blocks(reports.size(), execution, [&](std::size_t i, std::size_t) {
     results[i] = check(first + static_cast<int>(i), reports[i]);
   });
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -206,30 +203,26 @@ Result<void> go_on(const MethodOptions& options, int lines, int width, int heigh
 
 Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& options,
                                 const kernels::KernelTable& kernels) {
-  const auto upsampler = io::upsampler_for(options);
-  if (!upsampler) return upsampler.error();
-  const auto oracle = oracle_of(*upsampler, options);
-  if (!oracle) return oracle.error();
-  const io::ColorStage stage(source, *upsampler, options, kernels);
+  SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
+  SPECTILE_ASSIGN(const auto oracle, oracle_of(upsampler, options));
+  const io::ColorStage stage(source, upsampler, options, kernels);
   VerifyReport report;
   report.isa = kernels.name;
   report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
                             options.bands.count());
-  report.oracle_bound = rows::mixes_bases(*upsampler) ? 6 * kUlp : kSigmoidBound;
+  report.oracle_bound = rows::mixes_bases(upsampler) ? 6 * kUlp : kSigmoidBound;
   const int step = io::strip_lines(source.header(), source.planes(), 1);
   for (int first = 0; first < source.height(); first += step) {
     const int lines = std::min(step, source.height() - first);
-    const auto strip = source.read(first, lines);
-    if (!strip) return strip.error();
+    SPECTILE_ASSIGN(const auto strip, source.read(first, lines));
     SPECTILE_TRY(
         over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) -> Result<void> {
-          auto color = io::ColorLine::create(source.width());
-          if (!color) return color.error();
+          SPECTILE_ASSIGN(auto color, io::ColorLine::create(source.width()));
           const auto width = static_cast<std::size_t>(source.width());
-          const float* const rgb[3] = {color->rows[0], color->rows[1], color->rows[2]};
+          const float* const rgb[3] = {color.rows[0], color.rows[1], color.rows[2]};
           io::LineStats stats;
-          stage.line(**strip, line, *color, stats);
-          return verify_upsampled(kernels, *oracle, rgb, width, found);
+          stage.line(*strip, line, color, stats);
+          return verify_upsampled(kernels, oracle, rgb, width, found);
         }));
     SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
@@ -240,17 +233,15 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& opti
 Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOptions& options,
                                      const kernels::KernelTable& kernels) {
   const bool light = source.quantity() == Quantity::kIlluminant;
-  const auto d65 = illuminant("D65");
-  if (!d65) return d65.error();
-  const auto projector =
-      light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), *d65);
-  if (!projector) return projector.error();
+  SPECTILE_ASSIGN(const auto d65, illuminant("D65"));
+  SPECTILE_ASSIGN(const auto projector,
+                  light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), d65));
   // A plan's weights are given; the oracle integrates those of other bands itself.
-  const auto own = projector->weights();
+  const auto own = projector.weights();
   const auto weights =
       source.bands().plan() != nullptr
           ? std::vector<std::array<double, 3>>(own.begin(), own.end())
-          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &*d65);
+          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &d65);
   VerifyReport report;
   report.isa = kernels.name;
   report.what =
@@ -260,10 +251,9 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
   const int step = io::strip_lines(source.header(), source.planes(), 1);
   for (int first = 0; first < source.height(); first += step) {
     const int lines = std::min(step, source.height() - first);
-    const auto strip = source.read(first, lines);
-    if (!strip) return strip.error();
+    SPECTILE_ASSIGN(const auto strip, source.read(first, lines));
     SPECTILE_TRY(over_lines(first, lines, options.threads, report, [&](int line, VerifyReport& found) {
-      return verify_projected(kernels, source, **strip, line, *projector, weights, found);
+      return verify_projected(kernels, source, *strip, line, projector, weights, found);
     }));
     SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
@@ -272,14 +262,12 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
 }
 
 Result<VerifyReport> verify(const std::string& path, const MethodOptions& options) {
-  const auto kernels = dispatch::active();
-  if (!kernels) return kernels.error();
+  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
   auto spectral = io::SpectralSource::open(path, std::nullopt, threads, options.region);
-  if (spectral) return verify_spectral(**spectral, options, **kernels);
-  auto rgb = io::RgbSource::open(path, options.layer, threads, options.region);
-  if (!rgb) return rgb.error();
-  return verify_rgb(**rgb, options, **kernels);
+  if (spectral) return verify_spectral(**spectral, options, *kernels);
+  SPECTILE_ASSIGN(auto rgb, io::RgbSource::open(path, options.layer, threads, options.region));
+  return verify_rgb(*rgb, options, *kernels);
 }
 
 }  // namespace

@@ -38,17 +38,14 @@ Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_p
     return make_error(ErrorCode::kBadFile,
                       "{}: holds no coefficients (channels spectile.c0, spectile.c1, spectile.c2)", path);
   }
-  auto upsampler = upsampler_of(input->header(part), path);
-  if (!upsampler) return upsampler.error();
+  SPECTILE_ASSIGN(auto upsampler, upsampler_of(input->header(part), path));
   std::unique_ptr<CoefficientSource> source(new CoefficientSource);
   source->input_ = std::move(input);
   source->part_ = part;
-  source->upsampler_ = std::make_unique<Upsampler>(*std::move(upsampler));
+  source->upsampler_ = std::make_unique<Upsampler>(std::move(upsampler));
   SPECTILE_TRY(source->choose_channels());
   if (region) {
-    auto reader = RegionReader::create(*source->input_, part, *region, source->notes_);
-    if (!reader) return reader.error();
-    source->region_ = *std::move(reader);
+    SPECTILE_ASSIGN(source->region_, RegionReader::create(*source->input_, part, *region, source->notes_));
   }
   return source;
 }
@@ -98,9 +95,8 @@ Result<void> CoefficientSource::choose_channels() {
 }
 
 Result<std::shared_ptr<Strip>> CoefficientSource::read(int first_line, int lines) {
-  auto strip = make_strip(planes_, width(), first_line, lines);
-  if (!strip) return strip.error();
-  SPECTILE_TRY(region_ ? region_->fill(planes_, **strip) : fill_strip(*input_, part_, planes_, **strip));
+  SPECTILE_ASSIGN(auto strip, make_strip(planes_, width(), first_line, lines));
+  SPECTILE_TRY(region_ ? region_->fill(planes_, *strip) : fill_strip(*input_, part_, planes_, *strip));
   // The last lines: all of it is of one file.
   if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;

@@ -3,8 +3,8 @@
 
 #include <OpenEXR/ImfHeader.h>
 
-#include <spectile/result.hpp>
 #include <spectile/color/rgb_space.hpp>
+#include <spectile/result.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 

@@ -112,8 +112,7 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   const bool is_usual = std::equal(list.begin(), list.end(), usual.list().begin(), usual.list().end());
   const auto stored = is_usual ? Result<Bands>(usual) : Bands::from_list(std::move(list));
   if (!stored) return damaged(path, "spectileBands");
-  const auto bands = with_plan(header, *stored, path);
-  if (!bands) return bands.error();
+  SPECTILE_ASSIGN(const auto bands, with_plan(header, *stored, path));
   UpsamplerOptions options;
   const auto observer = text_of(header, "spectileObserver");
   if (observer != "1931" && observer != "1964") return damaged(path, "spectileObserver");
@@ -139,7 +138,7 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   } else if (light_name != "D65") {
     return damaged(path, "spectileLightSamples");
   }
-  auto upsampler = Upsampler::create(*method, *quantity, *bands, options);
+  auto upsampler = Upsampler::create(*method, *quantity, bands, options);
   if (!upsampler && upsampler.error().code == ErrorCode::kBadArgument) {
     return make_error(ErrorCode::kBadFile, "{}: {}", path, upsampler.error().message);
   }

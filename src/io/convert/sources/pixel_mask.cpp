@@ -52,9 +52,7 @@ Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const Rgb
   }
   for (std::size_t k = 0; k < mask.color_types_.size(); ++k) mask.color_types_[k] = source.planes()[k].type;
   if (!from_file) return mask;
-  auto file = ExrInput::open(options.mask, threads);
-  if (!file) return file.error();
-  mask.file_ = *std::move(file);
+  SPECTILE_ASSIGN(mask.file_, ExrInput::open(options.mask, threads));
   SPECTILE_TRY(mask.choose(source));
   mask.plane_ = source.planes().size();
   return mask;
@@ -93,10 +91,9 @@ Result<void> PixelMask::crop(const RgbSource& source) {
   const int x = corner.x + source.offset()[0];
   const int y = corner.y + source.offset()[1];
   std::vector<std::string> notes;
-  auto reader =
-      RegionReader::create(*file_, part_, {x, y, x + source.width() - 1, y + source.height() - 1}, notes);
-  if (!reader) return reader.error();
-  region_ = *std::move(reader);
+  SPECTILE_ASSIGN(
+      region_,
+      RegionReader::create(*file_, part_, {x, y, x + source.width() - 1, y + source.height() - 1}, notes));
   return {};
 }
 
@@ -104,12 +101,11 @@ Result<void> PixelMask::read(Strip& strip) {
   if (!file_) return {};
   // Every type that a channel may have comes as float.
   const std::vector<PlaneSpec> wanted = {{channel_, type_}};
-  auto own = make_strip(wanted, strip.width, strip.first_line, strip.lines);
-  if (!own) return own.error();
-  SPECTILE_TRY(region_ ? region_->fill(wanted, **own) : fill_strip(*file_, part_, wanted, **own));
-  strip.planes.push_back(std::move((*own)->planes[0]));
-  strip.stride_bytes.push_back((*own)->stride_bytes[0]);
-  strip.row_bytes.push_back((*own)->row_bytes[0]);
+  SPECTILE_ASSIGN(auto own, make_strip(wanted, strip.width, strip.first_line, strip.lines));
+  SPECTILE_TRY(region_ ? region_->fill(wanted, *own) : fill_strip(*file_, part_, wanted, *own));
+  strip.planes.push_back(std::move(own->planes[0]));
+  strip.stride_bytes.push_back(own->stride_bytes[0]);
+  strip.row_bytes.push_back(own->row_bytes[0]);
   const int height = height_of(region_ ? region_->header() : file_->header(part_));
   if (strip.first_line + strip.lines == height) SPECTILE_TRY(file_->unchanged());
   return {};

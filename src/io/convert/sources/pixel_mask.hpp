@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "src/io/convert/sources/rgb_source.hpp"
 #include "src/io/exr/exr_input.hpp"
 #include "src/io/exr/region.hpp"
-#include "src/io/convert/sources/rgb_source.hpp"
 #include "src/io/exr/strips.hpp"
 
 namespace spectile::io {

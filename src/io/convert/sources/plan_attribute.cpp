@@ -17,9 +17,8 @@ void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts,
 Result<Bands> with_plan(const Imf::Header& header, const Bands& bands, const std::string& path) {
   const auto* const text = header.findTypedAttribute<Imf::StringAttribute>(kPlanAttribute);
   if (text == nullptr) return bands;
-  const auto plan = parse_plan(text->value(), path + ": attribute " + kPlanAttribute);
-  if (!plan) return plan.error();
-  auto planned = Bands::of_plan(*plan);
+  SPECTILE_ASSIGN(const auto plan, parse_plan(text->value(), path + ": attribute " + kPlanAttribute));
+  auto planned = Bands::of_plan(plan);
   if (!planned) return make_error(ErrorCode::kBadFile, "{}: {}", path, planned.error().message);
   bool same = planned->count() == bands.count();
   // Names of channels have six decimals.

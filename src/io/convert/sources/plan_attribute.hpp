@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace spectile::io {
+#include "src/io/exr/attributes.hpp"
 
-inline constexpr const char* kPlanAttribute = "spectilePlan";
+namespace spectile::io {
 
 /// Appends the plan of bands, where they have one, as JSON.
 void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts, const Bands& bands);

@@ -32,18 +32,14 @@ Imf::PixelType read_type(Imf::PixelType stored) {
 
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
                                                    int threads, const Crop& region) {
-  auto input = ExrInput::open(path, threads);
-  if (!input) return input.error();
+  SPECTILE_ASSIGN(auto input, ExrInput::open(path, threads));
   std::unique_ptr<RgbSource> source(new RgbSource);
-  source->input_ = *std::move(input);
+  source->input_ = std::move(input);
   SPECTILE_TRY(source->choose(layer));
-  auto space = color_space_of(source->header(), path);
-  if (!space) return space.error();
-  source->space_ = *std::move(space);
+  SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
   if (region) {
-    auto reader = RegionReader::create(*source->input_, source->part_, *region, source->notes_);
-    if (!reader) return reader.error();
-    source->region_ = *std::move(reader);
+    SPECTILE_ASSIGN(source->region_,
+                    RegionReader::create(*source->input_, source->part_, *region, source->notes_));
   }
   if (source->with_chroma_) {
     SPECTILE_TRY(guarded(path, [&] {
@@ -145,8 +141,7 @@ void RgbSource::choose_passing(const std::string& prefix) {
 }
 
 Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {
-  auto strip = make_strip(planes_, width(), first_line, lines);
-  if (!strip) return strip.error();
+  SPECTILE_ASSIGN(auto strip, make_strip(planes_, width(), first_line, lines));
   std::vector<PlaneSpec> wanted = planes_;
   bool any = false;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -154,14 +149,14 @@ Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {
     any = any || !file_names_[i].empty();
   }
   if (any) {
-    SPECTILE_TRY(region_ ? region_->fill(wanted, **strip) : fill_strip(*input_, part_, wanted, **strip));
+    SPECTILE_TRY(region_ ? region_->fill(wanted, *strip) : fill_strip(*input_, part_, wanted, *strip));
   }
   if (with_chroma_) {
-    SPECTILE_TRY(read_chroma(**strip));
+    SPECTILE_TRY(read_chroma(*strip));
   } else if (file_names_[1].empty()) {
     // Luminance alone: green and blue are copies of it.
-    const std::size_t bytes = (*strip)->stride_bytes[0] * static_cast<std::size_t>(lines);
-    for (std::size_t i : {1U, 2U}) std::memcpy((*strip)->planes[i].data(), (*strip)->planes[0].data(), bytes);
+    const std::size_t bytes = strip->stride_bytes[0] * static_cast<std::size_t>(lines);
+    for (std::size_t i : {1U, 2U}) std::memcpy(strip->planes[i].data(), strip->planes[0].data(), bytes);
   }
   // The last lines: all of it is of one file.
   if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());

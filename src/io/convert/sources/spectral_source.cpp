@@ -41,10 +41,9 @@ std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              std::optional<Quantity> wanted, int threads,
                                                              const Crop& region) {
-  auto input = ExrInput::open(path, threads);
-  if (!input) return input.error();
+  SPECTILE_ASSIGN(auto input, ExrInput::open(path, threads));
   std::unique_ptr<SpectralSource> source(new SpectralSource);
-  source->input_ = *std::move(input);
+  source->input_ = std::move(input);
   std::optional<SpectralChannels> channels;
   for (int part = 0; part < source->input_->parts() && !channels; ++part) {
     if (source->input_->deep(part)) continue;
@@ -63,9 +62,7 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   }
   const auto bands = Bands::from_centres(channels->centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
-  auto planned = with_plan(source->input_->header(source->part_), *bands, path);
-  if (!planned) return planned.error();
-  source->bands_ = *std::move(planned);
+  SPECTILE_ASSIGN(source->bands_, with_plan(source->input_->header(source->part_), *bands, path));
   source->channels_ = *std::move(channels);
 
   const Imf::ChannelList& list = source->header().channels();
@@ -90,17 +87,15 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
     source->planes_.push_back({name, it.channel().type});
   }
   if (region) {
-    auto reader = RegionReader::create(*source->input_, source->part_, *region, source->notes_);
-    if (!reader) return reader.error();
-    source->region_ = *std::move(reader);
+    SPECTILE_ASSIGN(source->region_,
+                    RegionReader::create(*source->input_, source->part_, *region, source->notes_));
   }
   return source;
 }
 
 Result<std::shared_ptr<Strip>> SpectralSource::read(int first_line, int lines) {
-  auto strip = make_strip(planes_, width(), first_line, lines);
-  if (!strip) return strip.error();
-  SPECTILE_TRY(region_ ? region_->fill(planes_, **strip) : fill_strip(*input_, part_, planes_, **strip));
+  SPECTILE_ASSIGN(auto strip, make_strip(planes_, width(), first_line, lines));
+  SPECTILE_TRY(region_ ? region_->fill(planes_, *strip) : fill_strip(*input_, part_, planes_, *strip));
   // The last lines: all of it is of one file.
   if (first_line + lines == height()) SPECTILE_TRY(input_->unchanged());
   return strip;

@@ -65,9 +65,7 @@ BandPacker::BandPacker(const kernels::KernelTable& kernels, const rows::SampledR
 Result<BandPacker::Work> BandPacker::work() const {
   Work out;
   out.rows.resize(rows_.count());
-  auto block = FloatBuffer::create((rows_.count() + 2) * kLanesPerBlock);
-  if (!block) return block.error();
-  out.block = *std::move(block);
+  SPECTILE_ASSIGN(out.block, FloatBuffer::create((rows_.count() + 2) * kLanesPerBlock));
   out.filler.resize(rows_.count());
   return out;
 }

@@ -65,12 +65,8 @@ BandFilter::BandFilter(const kernels::KernelTable& kernels, const Upsampler& ups
 Result<BandFilter::Work> BandFilter::work(int width) const {
   Work out;
   const std::size_t padded = blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
-  auto row = FloatBuffer::create(padded);
-  if (!row) return row.error();
-  out.row = *std::move(row);
-  auto halves = FloatBuffer::create(padded / 2);
-  if (!halves) return halves.error();
-  out.halves = *std::move(halves);
+  SPECTILE_ASSIGN(out.row, FloatBuffer::create(padded));
+  SPECTILE_ASSIGN(out.halves, FloatBuffer::create(padded / 2));
   return out;
 }
 

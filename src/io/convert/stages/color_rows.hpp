@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "kernels/abi.hpp"
-#include "src/io/exr/exr_writer.hpp"
 #include "src/io/convert/stages/lines.hpp"
+#include "src/io/exr/exr_writer.hpp"
 #include "src/io/exr/strips.hpp"
 
 namespace spectile::io {

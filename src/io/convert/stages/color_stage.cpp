@@ -2,8 +2,8 @@
 #include "src/io/convert/stages/color_stage.hpp"
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/color_space.hpp"
 #include "src/color/color_matrix.hpp"
+#include "src/io/convert/sources/color_space.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile::io {
@@ -54,7 +54,7 @@ ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::si
 }
 
 void ColorStage::limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
-  const GamutReport found = rows::limit_gamut(kernels_, upsampler_, color.rows, limiting(), width);
+  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, color.rows, limiting(), width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
 }
 

@@ -8,8 +8,8 @@
 
 #include "kernels/abi.hpp"
 #include "src/io/convert/frame/conversion.hpp"
-#include "src/io/convert/stages/lines.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
+#include "src/io/convert/stages/lines.hpp"
 
 namespace spectile::io {
 

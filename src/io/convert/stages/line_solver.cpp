@@ -35,19 +35,14 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
 Result<LineSolver::Work> LineSolver::work(int width) const {
   Work work;
   if (mixes_) return work;
-  auto coefficients = ColorLine::create(width);
-  if (!coefficients) return coefficients.error();
-  work.coefficients = *std::move(coefficients);
+  SPECTILE_ASSIGN(auto coefficients, ColorLine::create(width));
+  work.coefficients = std::move(coefficients);
   const std::size_t padded = work.coefficients.padded;
-  auto scale = FloatBuffer::create(padded);
-  if (!scale) return scale.error();
-  work.scale = *std::move(scale);
+  SPECTILE_ASSIGN(work.scale, FloatBuffer::create(padded));
   work.unsolved.resize(padded / kLanesPerBlock);
   work.outside.resize(padded);
   if (table_) {
-    auto batch = rows::ColorTable::Batch::create(padded);
-    if (!batch) return batch.error();
-    work.batch = *std::move(batch);
+    SPECTILE_ASSIGN(work.batch, rows::ColorTable::Batch::create(padded));
   }
   return work;
 }
@@ -143,7 +138,7 @@ void LineSolver::solve_run(Work& work, const ColorLine& rgb, const ColorRun& run
   // A constant run's first block stands for all of it.
   const std::size_t n = constant ? std::min(run.pixels, kLanesPerBlock) : run.pixels;
   float* const from[3] = {rgb.rows[0] + first, rgb.rows[1] + first, rgb.rows[2] + first};
-  const GamutReport found = rows::limit_gamut(kernels_, upsampler_, from, stage_.limiting(), n);
+  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, from, stage_.limiting(), n);
   if (found.outside > 0) {
     stats.outside.add(constant ? run.pixels : found.outside,
                       static_cast<int>(first) + static_cast<int>(found.first), line);
