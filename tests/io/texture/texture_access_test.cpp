@@ -8,7 +8,7 @@
 #include <spectile/image/spectral_texture.hpp>
 #include <thread>
 
-#include "tests/io/convert/compact_files.hpp"
+#include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
 namespace {

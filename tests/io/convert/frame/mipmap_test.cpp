@@ -7,7 +7,7 @@
 #include <spectile/image/image.hpp>
 #include <spectile/image/settings.hpp>
 
-#include "tests/io/convert/mipmap_support.hpp"
+#include "tests/io/convert/frame/mipmap_support.hpp"
 
 namespace spectile {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <spectile/image/image.hpp>
 
-#include "tests/io/convert/compact_files.hpp"
+#include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
 namespace {

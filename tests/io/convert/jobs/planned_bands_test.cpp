@@ -6,7 +6,7 @@
 #include <cmath>
 #include <spectile/spectile.hpp>
 
-#include "tests/io/convert/compact_files.hpp"
+#include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
 namespace {

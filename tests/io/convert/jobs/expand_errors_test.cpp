@@ -9,7 +9,7 @@
 #include <spectile/image/image.hpp>
 #include <spectile/image/spectral_texture.hpp>
 
-#include "tests/io/convert/compact_files.hpp"
+#include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
 namespace {
