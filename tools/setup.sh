@@ -6,7 +6,7 @@ packages=(
   g++ cmake ninja-build
   libxsimd-dev libtbb-dev libopenexr-dev libimath-dev libdeflate-dev libfmt-dev
   libeigen3-dev libcli11-dev nlohmann-json3-dev
-  libgtest-dev libgmock-dev librapidcheck-dev
+  libgtest-dev libgmock-dev librapidcheck-dev python3
 )
 
 if ! command -v dpkg-query >/dev/null; then

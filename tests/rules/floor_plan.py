@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Checks the floor plan: which room includes which, one room per outside library, sizes of files and folders.
+
+Rooms are listed from the ground up. A room may include the rooms named beside it, and only rooms listed above its own
+line can be named, so that the graph has no cycle. A public header belongs to a room like any other file.
+usage: floor_plan.py PROJECT_FOLDER
+"""
+import fnmatch
+import os
+import re
+import sys
+
+# --- rooms from the ground up: name, its files and folders, the rooms that it may include ----------------------------
+ROOMS = [
+    ("base", "include/spectile/*.hpp src/base", ""),
+    ("data", "src/data", "base"),
+    ("spectra", "include/spectile/spectra src/spectra", "base data"),
+    ("radiometry", "include/spectile/radiometry src/radiometry", "base data spectra"),
+    ("abi", "kernels/abi kernels/abi*.hpp kernels/*_constants.hpp", ""),
+    ("kernels", "kernels", "abi"),
+    ("reference", "src/reference", "base data abi"),
+    ("dispatch", "include/spectile/isa.hpp src/dispatch", "base abi reference"),
+    ("lanes", "include/spectile/lanes src/lanes", "base data spectra abi dispatch"),
+    ("color", "include/spectile/color src/color", "base data spectra abi dispatch lanes"),
+    ("upsampling", "include/spectile/upsampling src/upsampling", "base data spectra abi dispatch lanes color"),
+    ("oracle", "src/reference/oracle", "base data spectra abi reference lanes color upsampling"),
+    ("planner", "include/spectile/plan src/planner", "base data spectra dispatch lanes color upsampling"),
+    ("film", "include/spectile/film src/film", "base data spectra abi dispatch lanes color"),
+    ("scene", "include/spectile/scene src/scene", "base data spectra lanes color film"),
+    ("image", "include/spectile/image", "base spectra lanes color upsampling planner film scene"),
+    ("io/deflate", "src/io/deflate", "base"),
+    ("io/exr", "src/io/exr", "base abi dispatch lanes image io/deflate"),
+    ("io/text", "src/io/text", "base data spectra planner image"),
+    ("io/frame", "src/io/convert/frame", "base abi dispatch lanes planner image io/exr"),
+    ("io/sources", "src/io/convert/sources",
+     "base spectra dispatch lanes color upsampling planner image io/exr io/text io/frame"),
+    ("io/stages", "src/io/convert/stages",
+     "base spectra abi dispatch lanes color upsampling planner image io/exr io/frame io/sources"),
+    ("io/jobs", "src/io/convert/jobs",
+     "base spectra abi reference dispatch lanes color upsampling oracle planner image io/exr io/frame io/sources io/stages"),
+    ("io/average", "src/io/average", "base abi dispatch lanes image io/exr io/frame io/sources io/stages"),
+    ("io/film", "src/io/film",
+     "base spectra abi dispatch lanes color film image io/exr io/frame io/sources io/stages"),
+    ("io/texture", "src/io/texture",
+     "base spectra abi dispatch lanes color upsampling planner image io/exr io/frame io/sources io/stages"),
+    ("bench", "include/spectile/bench bench",
+     "base data spectra radiometry abi reference dispatch lanes color upsampling oracle planner film scene"),
+    ("umbrella", "include/spectile/spectile.hpp",
+     "base spectra radiometry dispatch lanes color upsampling planner film scene image"),
+    ("cli", "src/cli",
+     "base spectra radiometry dispatch lanes color upsampling planner film scene image bench umbrella"),
+]
+# Rooms that see no other room's private headers.
+PUBLIC_HEADERS_ONLY = {"cli", "umbrella"}
+
+# --- outside libraries: name, what is included, the only places that may -------------------------------------------------
+LIBRARIES = [
+    ("xsimd", r"xsimd/", "kernels/simd*"),
+    ("intrinsics", r"([a-z]*mmintrin|immintrin|arm_neon)\.h", "kernels/simd*"),
+    ("oneTBB", r"(oneapi/)?tbb/", "src/lanes/tiles.cpp"),
+    ("OpenEXR", r"(OpenEXR|Imath)/|Imf|Imath", "src/io/exr/* bench/exr_only.cpp"),
+    ("libdeflate", r"libdeflate", "src/io/exr/zip_encoder.cpp"),
+    ("Eigen", r"Eigen/", "src/planner/* src/upsampling/quadratic_program.*"),
+    ("CLI11", r"CLI/", "src/cli/*"),
+    ("nlohmann-json", r"nlohmann/", "src/cli/* src/io/text/plan_json.cpp bench/report/json.cpp"),
+    ("fmt", r"fmt/", "src/* bench/*"),
+    ("POSIX", r"(sys|linux)/", "src/* bench/*"),
+]
+KERNEL_HEADERS = "cmath cstddef cstdint cstring xsimd/xsimd.hpp immintrin.h arm_neon.h".split()
+
+# --- what prints or ends the process: programs, and Result where an error is taken for a value ------------------------
+PRINTS = re.compile(r"\b(v?f?printf|f?puts|putchar|std::(cout|cerr|clog)|fmt::print|(std::)?(abort|_?exit|quick_exit|terminate))"
+                    r"\b\s*(\(|<<)")
+MAY_PRINT = "src/cli/* bench/exr_only.cpp include/spectile/result.hpp"
+
+MAX_FILES = 20
+MAX_LINES = 350
+SIZE_EXEMPT = "src/data src/data/*"  # published tables, each as long as its source
+
+# --- not yet in order ------------------------------------------------------------------------------------------------------
+PENDING_EDGES = {("spectra", "upsampling"), ("spectra", "planner"), ("spectra", "radiometry"), ("lanes", "color"),
+                 ("lanes", "radiometry")}
+PENDING_FILES = {
+    "OpenEXR": "src/io/*",
+    "lines": "kernels/abi.hpp kernels/sigmoid_search.inl src/io/text/plan_json.cpp",
+    "files": "bench/report src/cli src/io/exr src/upsampling kernels",
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+COMMENT = re.compile(r"//.*")
+
+
+def matches(path, patterns):
+    return any(fnmatch.fnmatchcase(path, pattern) for pattern in patterns.split())
+
+
+def room_of(path):
+    """The room whose pattern is the longest of those that hold the file; None if there is none."""
+    best = (-1, None)
+    for name, places, _ in ROOMS:
+        for place in places.split():
+            inside = path.startswith(place + "/") or (
+                fnmatch.fnmatchcase(path, place) and path.count("/") == place.count("/"))
+            if inside and len(place) > best[0]:
+                best = (len(place), name)
+    return best[1]
+
+
+class FloorPlan:
+    def __init__(self, root):
+        self.root = root
+        self.complaints = []
+        self.files = []
+        for top in ("include", "kernels", "src", "bench"):
+            for folder, _, names in sorted(os.walk(os.path.join(root, top))):
+                self.files += [os.path.relpath(os.path.join(folder, name), root) for name in sorted(names)]
+        self.sources = [path for path in self.files if path.endswith((".hpp", ".cpp", ".inl"))]
+
+    def complain(self, rule, place, sentence):
+        path = place.split(":")[0]
+        if not matches(path, PENDING_FILES.get(rule, "")):
+            self.complaints.append(f"[{rule}] {place}: {sentence}")
+
+    def check(self):
+        self.check_order()
+        public = []
+        for path in self.sources:
+            with open(os.path.join(self.root, path), encoding="utf-8") as file:
+                text = file.read()
+            may_print = matches(path, MAY_PRINT) or not PRINTS.search(text)
+            lines = text.splitlines()
+            if len(lines) > MAX_LINES and not matches(path, SIZE_EXEMPT):
+                self.complain("lines", path, f"{len(lines)} lines, at most {MAX_LINES}")
+            for number, line in enumerate(lines, 1):
+                place = f"{path}:{number}"
+                include = INCLUDE.match(line) if "#" in line else None
+                if include:
+                    self.check_include(path, place, *include.groups())
+                elif not may_print and PRINTS.search(COMMENT.sub("", line)):
+                    self.complain("prints", place, "the library neither prints nor exits")
+            if path.startswith("include/spectile/") and not path.startswith("include/spectile/bench/"):
+                public.append(path.removeprefix("include/"))
+        self.check_umbrella(public)
+        self.check_folders()
+        return self.complaints
+
+    def check_order(self):
+        known = set()
+        for name, _, may_include in ROOMS:
+            for other in may_include.split():
+                if other not in known:
+                    self.complain("order", "tests/rules/floor_plan.py", f"{name} may not name {other}, which is not below it")
+            known.add(name)
+
+    def check_include(self, path, place, mark, header):
+        room = room_of(path)
+        if mark == '"' or header.startswith("spectile/"):
+            self.check_edge(path, place, room, mark, header)
+            return
+        library = next((entry for entry in LIBRARIES if re.match(entry[1], header)), None)
+        if library:
+            name, _, places = library
+            if not matches(path, places):
+                self.complain(name, place, f"includes {header}; {name} is for {places}")
+        elif "/" in header:
+            self.complain("other", place, f"includes {header} of a library that no room is for")
+        if path.startswith("include/") and ("/" in header or "." in header):
+            self.complain("public", place, f"includes {header}; public headers know the standard library and spectile")
+        if path.startswith("kernels/") and header not in KERNEL_HEADERS:
+            self.complain("kernels", place, f"includes {header}; kernels' units hold raw-pointer code")
+
+    def check_edge(self, path, place, room, mark, header):
+        target = "include/" + header if mark == "<" else header
+        other = room_of(target)
+        if not os.path.isfile(os.path.join(self.root, target)):
+            self.complain("path", place, f"{header}: no such file; includes are written from the project's folder")
+            return
+        if path.startswith("include/") and mark == '"':
+            self.complain("public", place, f"includes {header}, which is not installed")
+        if room in PUBLIC_HEADERS_ONLY and mark == '"' and other != room:
+            self.complain("private", place, f"includes {header}; {room} sees <spectile/...> only")
+        allowed = next((may_include.split() for name, _, may_include in ROOMS if name == room), [])
+        if room is None or other is None:
+            self.complain("room", place, f"{path if room is None else header} is in no room")
+        elif other != room and other not in allowed and (room, other) not in PENDING_EDGES:
+            self.complain("edge", place, f"includes {header}; {room} may include {' '.join(allowed) or 'nothing'}, not {other}")
+
+    def check_umbrella(self, public):
+        umbrella = "include/spectile/spectile.hpp"
+        with open(os.path.join(self.root, umbrella), encoding="utf-8") as file:
+            text = file.read()
+        for header in public:
+            if f"<{header}>" not in text and header != "spectile/spectile.hpp":
+                self.complain("umbrella", umbrella, f"lacks {header}")
+
+    def check_folders(self):
+        count = {}
+        for path in self.files:
+            count[os.path.dirname(path)] = count.get(os.path.dirname(path), 0) + 1
+        for folder, files in count.items():
+            if files > MAX_FILES and not matches(folder, SIZE_EXEMPT):
+                self.complain("files", folder, f"{files} files, at most {MAX_FILES}")
+
+
+def main():
+    complaints = FloorPlan(sys.argv[1]).check()
+    print("\n".join(complaints) if complaints else "every room is in order")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
