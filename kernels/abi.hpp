@@ -25,7 +25,7 @@ inline constexpr std::size_t kSumRun = 8;
 inline constexpr std::size_t kSmitsRow = 8;
 
 /// Numbers that a limit's chains come in: a multiple of 24 vectors, whatever their width.
-inline constexpr std::size_t kLimitChains = 384;
+inline constexpr std::size_t kPeakChains = 384;
 
 /// Largest finite half; rows of halves are limited to it, so that a finite sample stays finite.
 inline constexpr float kHalfMax = 65504.0F;
@@ -272,8 +272,8 @@ struct KernelTable {
   /// y = ((w0 * r) + (w1 * g)) + (w2 * b): reached = 1 with coefficients for rgb, or the part of the line
   /// that a sigmoid has, with the coefficients there; 0 with those of black or white where y is not inside
   /// (0, 1). A component that is not finite gives NaN and 1. n a multiple of kLanes.
-  void (*sigmoid_reach)(float* const c[3], float* reached, const float* const rgb[3],
-                        const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept;
+  void (*sigmoid_continuation)(float* const c[3], float* reached, const float* const rgb[3],
+                               const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept;
   /// dst [blocks][bands][kLanes]; scale [n] or null for 1; rows [bands][kSigmoidRow]; `white`: times its
   /// white
   void (*sigmoid_blocks)(float* dst, const float* const c[3], const float* scale, const float* rows,
@@ -397,20 +397,20 @@ struct KernelTable {
   /// adds a row's counts to *scan
   void (*scan_rgb)(RgbScan* scan, const float* const rgb[3], std::size_t n) noexcept;
 
-  // The machine's own limits. n a multiple of kLanes, for those with steps of kLimitChains.
+  // The machine's own limits. n a multiple of kLanes, for those with steps of kPeakChains.
   /// dst[i] = exclusive or of the bits of src[i], src[i + kLanes], ...; dst [kLanes]
-  void (*limit_load)(std::uint32_t* dst, const float* src, std::size_t n) noexcept;
+  void (*peak_load)(std::uint32_t* dst, const float* src, std::size_t n) noexcept;
   /// dst[i] = value; `around`: with stores that go round the caches
-  void (*limit_store)(float* dst, float value, std::size_t n, bool around) noexcept;
-  void (*limit_copy)(float* dst, const float* src, std::size_t n) noexcept;  ///< dst[i] = src[i]
+  void (*peak_store)(float* dst, float value, std::size_t n, bool non_temporal) noexcept;
+  void (*peak_copy)(float* dst, const float* src, std::size_t n) noexcept;  ///< dst[i] = src[i]
   /// dst[i] = x after `steps` times x = (x * m) + a, two roundings, from src[i] on
-  void (*limit_multiply_add)(float* dst, const float* src, float m, float a, std::size_t steps,
-                             std::size_t n) noexcept;
+  void (*peak_multiply_add)(float* dst, const float* src, float m, float a, std::size_t steps,
+                            std::size_t n) noexcept;
   /// the same with one rounding
-  void (*limit_fused)(float* dst, const float* src, float m, float a, std::size_t steps,
-                      std::size_t n) noexcept;
+  void (*peak_fused)(float* dst, const float* src, float m, float a, std::size_t steps,
+                     std::size_t n) noexcept;
   /// dst[i] = x after `steps` times x = m / x
-  void (*limit_divide)(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept;
+  void (*peak_divide)(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept;
 };
 
 }  // namespace spectile::kernels

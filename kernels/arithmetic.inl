@@ -88,12 +88,12 @@ inline void fold_bands(float* dst, const float* spectra, std::size_t bands, std:
 
 void minimum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   fold_bands(dst, spectra, bands, blocks, __builtin_inff(),
-             [](F32 least, F32 s) { return limit_above(s, least); });  // s < least ? s : least
+             [](F32 least, F32 s) { return min(s, least); });  // s < least ? s : least
 }
 
 void maximum(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   fold_bands(dst, spectra, bands, blocks, -__builtin_inff(),
-             [](F32 most, F32 s) { return limit_below(s, most); });  // most < s ? s : most
+             [](F32 most, F32 s) { return max(s, most); });  // most < s ? s : most
 }
 
 /// Lanes of a block whose sums of samples are NaN: those with a NaN sample, and some with infinities.

@@ -148,7 +148,7 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmCurv
       store(part[k], (safe - xsimd::to_float(interval)) * quotient);
       // Not finite where a number is not: which it is, is looked for below.
       everything = everything + ((lambda + pdf) + quotient);
-      least = limit_above(least, pdf);
+      least = min(least, pdf);
       size = size + xsimd::abs(quotient);
     }
     I32(0).store_unaligned(reasons + i);
@@ -251,11 +251,11 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   for (std::size_t i = 0; i < n; i += kWidth) {
     F32 most(0.0F);
     for (std::size_t b = 0; b < bands; ++b) {
-      most = limit_below(xsimd::abs(load_any(radiance[b] + i)), most);  // NaN passed over
+      most = max(xsimd::abs(load_any(radiance[b] + i)), most);  // NaN passed over
     }
     const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
     // A product grows with its factors, so the largest one tells for all.
-    const F32 largest = clamps ? limit_above(maximum, most) : most;
+    const F32 largest = clamps ? min(maximum, most) : most;
     const std::uint64_t beyond = lane_bits(~(xsimd::abs(largest * w) <= range));
     store(sizes, most);
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
@@ -307,7 +307,7 @@ void film_hits(std::int32_t* band, float* hits, std::int32_t* reasons, const Buc
     if (clamps) {
       for (std::size_t k = 0; k < count; ++k) {
         const Mask dead = load_any(density[k] + i) == zero;
-        most = limit_below(xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))), most);
+        most = max(xsimd::select(dead, zero, xsimd::abs(load_any(radiance[k] + i))), most);
       }
     }
     std::uint64_t beyond = 0;

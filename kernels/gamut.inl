@@ -25,7 +25,7 @@ void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float
       if (bits == 0) continue;
       outside_lanes |= bits << lane;
       const F32 sum = (F32(weights[0]) * v[0] + F32(weights[1]) * v[1]) + F32(weights[2]) * v[2];
-      const F32 y = limit_above(high, limit_below(low, sum));
+      const F32 y = min(high, max(low, sum));
       F32 part = one;
       for (const F32& value : v) {
         // The part of the way from grey at which this component reaches the side that it is beyond.
@@ -35,7 +35,7 @@ void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float
         part = xsimd::select(allowed < part, allowed, part);
       }
       for (std::size_t k = 0; k < 3; ++k) {
-        const F32 inside = limit_above(high, limit_below(low, y + part * (v[k] - y)));
+        const F32 inside = min(high, max(low, y + part * (v[k] - y)));
         store(rgb[k] + at, xsimd::select(outside, inside, v[k]));
       }
     }

@@ -6,9 +6,9 @@
 #include "kernels/film_add.inl"
 #include "kernels/film_weigh.inl"
 #include "kernels/gamut.inl"
-#include "kernels/limits.inl"
+#include "kernels/peak.inl"
 #include "kernels/sigmoid.inl"
-#include "kernels/sigmoid_reach.inl"
+#include "kernels/sigmoid_continuation.inl"
 #include "kernels/sigmoid_search.inl"
 #include "kernels/upsample.inl"
 #include "kernels/wavelengths.inl"
@@ -60,7 +60,7 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .smits_rows_half = smits_rows_half,
     .smits_fold = smits_fold,
     .sigmoid_solve = sigmoid_solve,
-    .sigmoid_reach = sigmoid_reach,
+    .sigmoid_continuation = sigmoid_continuation,
     .sigmoid_blocks = sigmoid_blocks,
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,
@@ -86,12 +86,12 @@ constexpr KernelTable SPECTILE_KERNEL_NAME = {
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,
-    .limit_load = limit_load,
-    .limit_store = limit_store,
-    .limit_copy = limit_copy,
-    .limit_multiply_add = limit_multiply_add,
-    .limit_fused = limit_fused,
-    .limit_divide = limit_divide,
+    .peak_load = peak_load,
+    .peak_store = peak_store,
+    .peak_copy = peak_copy,
+    .peak_multiply_add = peak_multiply_add,
+    .peak_fused = peak_fused,
+    .peak_divide = peak_divide,
 };
 
 }  // namespace spectile::kernels

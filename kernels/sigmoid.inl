@@ -33,7 +33,7 @@ inline SigmoidPoint sigmoid_point(const Coefficients& a, F32 lambda) noexcept {
 }
 
 inline F32 sigmoid_sample(const Coefficients& a, F32 lambda) noexcept {
-  return limit_above(F32(1.0F), limit_below(F32(0.0F), sigmoid_point(a, lambda).sample));
+  return min(F32(1.0F), max(F32(0.0F), sigmoid_point(a, lambda).sample));
 }
 
 /// A sample times the band's white and the lane's scale, where there are.

@@ -49,18 +49,18 @@ inline constexpr float kSigmoidShortest = 0x1p-12F;
 /// that is tried at once, the shortest part of a Newton step, and how many evaluations a place on the way may
 /// take: patient for colours in the cube, where a way across the far ends of the range turns sharply, and
 /// brief for those outside, where most ways end.
-struct ReachEffort {
+struct ContinuationEffort {
   float shortest, damped, tries;
 };
-inline constexpr ReachEffort kReachInside = {0x1p-12F, 0x1p-8F, 16.0F};
-inline constexpr ReachEffort kReachOutside = {0x1p-9F, 0.5F, 5.0F};
+inline constexpr ContinuationEffort kContinuationInside = {0x1p-12F, 0x1p-8F, 16.0F};
+inline constexpr ContinuationEffort kContinuationOutside = {0x1p-9F, 0.5F, 5.0F};
 /// The first part that is tried, evaluations at most, and how near (relative to the grey) places must be met.
 /// At the end steps go on as long as they halve the residual.
-inline constexpr float kReachFirst = 0.25F;
-inline constexpr int kReachSteps = 256;
-inline constexpr float kReachNear = 1e-3F;
-inline constexpr float kReachGain = 0.5F;
+inline constexpr float kContinuationFirst = 0.25F;
+inline constexpr int kContinuationSteps = 256;
+inline constexpr float kContinuationNear = 1e-3F;
+inline constexpr float kContinuationGain = 0.5F;
 /// Greys below this are black here: what is that dark and outside the cube may still be a colour's luminance.
-inline constexpr float kReachBlack = 0x1p-60F;
+inline constexpr float kContinuationBlack = 0x1p-60F;
 
 }  // namespace spectile::kernels

@@ -115,7 +115,7 @@ inline Coefficients start(const F32 v[3], F32 z, const SigmoidTable& table) noex
   F32 d[3];
   for (std::size_t i = 0; i < 3; ++i) {
     const F32 scaled = q[i] * steps;
-    const I32 cell = xsimd::to_int(limit_above(limit, scaled));
+    const I32 cell = xsimd::to_int(min(limit, scaled));
     d[i] = scaled - (xsimd::to_float(cell) + F32(0.5F));
     node = node * I32(table.steps) + cell;
   }
@@ -225,7 +225,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
   Mask inside = finite;
   for (std::size_t k = 0; k < 3; ++k) {
     target[k] = xsimd::select(finite, rgb[k], zero);
-    v[k] = limit_above(one, limit_below(zero, target[k]));
+    v[k] = min(one, max(zero, target[k]));
     inside = inside & (v[k] == target[k]);
   }
   const F32 high = xsimd::max(xsimd::max(v[0], v[1]), v[2]);

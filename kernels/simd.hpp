@@ -123,7 +123,7 @@ inline void stream_fence() {
 }
 
 /// v < lowest ? lowest : v. On x86 the maximum instruction does just that when v is its second operand.
-inline F32 limit_below(F32 lowest, F32 v) {
+inline F32 max(F32 lowest, F32 v) {
 #if defined(__x86_64__)
   return xsimd::max(lowest, v);
 #else
@@ -132,7 +132,7 @@ inline F32 limit_below(F32 lowest, F32 v) {
 }
 
 /// highest < v ? highest : v.
-inline F32 limit_above(F32 highest, F32 v) {
+inline F32 min(F32 highest, F32 v) {
 #if defined(__x86_64__)
   return xsimd::min(highest, v);
 #else

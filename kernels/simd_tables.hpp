@@ -115,7 +115,7 @@ inline I32 gather(const std::int32_t* base, I32 index) {
 template <class Table>
 inline I32 last_knot(const float* knots, const Table& table, F32 at) {
   const F32 most(static_cast<float>(table.buckets - 1));
-  const F32 bucket = limit_above(most, (at - F32(knots[0])) * F32(table.buckets_per_nm));
+  const F32 bucket = min(most, (at - F32(knots[0])) * F32(table.buckets_per_nm));
   I32 knot = gather(table.start, xsimd::to_int(bucket));
   for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
     const I32 next = knot + I32(step);

@@ -35,7 +35,7 @@ inline Mixture mixture(F32 r, F32 g, F32 b) noexcept {
 inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexcept {
   const F32 sample =
       (m.white * white + m.second * secondary(row, m.second_index)) + m.first * primary(row, m.first_index);
-  return limit_below(lowest, sample);
+  return max(lowest, sample);
 }
 
 /// Vectors of a block taken at once where stores go round the caches: all, so that memory is written line
@@ -85,7 +85,7 @@ inline void put_sample(float* p, F32 v) noexcept {
   store_any(p, v);
 }
 inline void put_sample(std::uint16_t* p, F32 v) noexcept {
-  store_half(p, limit_above(F32(kHalfMax), v));
+  store_half(p, min(F32(kHalfMax), v));
 }
 
 template <class Sample>

@@ -78,8 +78,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const Mask good = (lambda > zero) & (lambda - lambda == zero);
-    const F32 l =
-        limit_above(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
+    const F32 l = min(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
     const F32 inverse = one / l;
     const F32 x = exponent * inverse;
     const Mask live = good & (x < F32(kPlanckLimit));
@@ -139,7 +138,7 @@ void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowe
 template <class Put>
 inline void spread(F32 u, std::size_t count, Put put) noexcept {
   const F32 one(1.0F);
-  const F32 first = limit_above(F32(1.0F - 0x1p-24F), limit_below(F32(0.0F), u));
+  const F32 first = min(F32(1.0F - 0x1p-24F), max(F32(0.0F), u));
   for (std::size_t k = 0; k < count; ++k) {
     const F32 moved = first + F32(static_cast<float>(k) / static_cast<float>(count));
     put(k, or_nan(u, xsimd::select(moved >= one, moved - one, moved)));

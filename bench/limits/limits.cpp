@@ -9,7 +9,7 @@ namespace spectile::measure {
 namespace {
 
 using kernels::kLanes;
-using kernels::kLimitChains;
+using kernels::kPeakChains;
 
 /// Steps of a chain: a few microseconds, against which starting counts for nothing.
 constexpr std::size_t kSteps = 256;
@@ -55,19 +55,19 @@ LimitLoops::LimitLoops(const kernels::KernelTable& table, float* memory, std::si
   const kernels::KernelTable* k = &table;
   load_.run = in_parts(2 * half, threads, passes, [=](std::size_t first, std::size_t n) {
     std::uint32_t bits[kLanes];
-    k->limit_load(bits, memory + first, n);
+    k->peak_load(bits, memory + first, n);
   });
   store_.run = in_parts(2 * half, threads, passes, [=](std::size_t first, std::size_t n) {
-    k->limit_store(memory + first, 1.0F, n, false);
+    k->peak_store(memory + first, 1.0F, n, false);
   });
   stream_.run = in_parts(2 * half, threads, passes, [=](std::size_t first, std::size_t n) {
-    k->limit_store(memory + first, 1.0F, n, true);
+    k->peak_store(memory + first, 1.0F, n, true);
   });
   copy_.run = in_parts(half, threads, passes, [=](std::size_t first, std::size_t n) {
-    k->limit_copy(memory + half + kApart + first, memory + first, n);
+    k->peak_copy(memory + half + kApart + first, memory + first, n);
   });
   // Arithmetic needs no memory to speak of: a few kilobytes a thread.
-  const std::size_t chains = 4 * kLimitChains;
+  const std::size_t chains = 4 * kPeakChains;
   steps_ = static_cast<double>(chains) * static_cast<double>(kSteps) * threads;
   const auto chain = [&](auto step) {
     return [=] {
@@ -81,9 +81,9 @@ LimitLoops::LimitLoops(const kernels::KernelTable& table, float* memory, std::si
                         });
     };
   };
-  multiply_add_.run = chain([=](float* x) { k->limit_multiply_add(x, x, 0.999F, 1e-3F, kSteps, chains); });
-  fused_.run = chain([=](float* x) { k->limit_fused(x, x, 0.999F, 1e-3F, kSteps, chains); });
-  divide_.run = chain([=](float* x) { k->limit_divide(x, x, 1.5F, kSteps, chains); });
+  multiply_add_.run = chain([=](float* x) { k->peak_multiply_add(x, x, 0.999F, 1e-3F, kSteps, chains); });
+  fused_.run = chain([=](float* x) { k->peak_fused(x, x, 0.999F, 1e-3F, kSteps, chains); });
+  divide_.run = chain([=](float* x) { k->peak_divide(x, x, 1.5F, kSteps, chains); });
 }
 
 std::vector<Timed*> LimitLoops::timed() {
@@ -107,13 +107,14 @@ MachineLimit LimitLoops::limit() const {
   return out;
 }
 
-double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool around, std::string* binds) const {
+double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool non_temporal,
+                              std::string* binds) const {
   const auto per_byte = [&](const Timed& t) { return t.rounds[round] / bytes_; };
   const double load = per_byte(load_);
   const double copy = per_byte(copy_);
   double memory = 0;
   const char* name = "load";
-  if (around) {
+  if (non_temporal) {
     memory = cost.read_bytes * load + cost.written_bytes * per_byte(stream_);
     name = cost.written_bytes > 0 ? "stream" : "load";
   } else {
@@ -133,12 +134,12 @@ double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool around, 
   return std::max(memory, arithmetic);
 }
 
-double LimitLoops::fraction(const Timed& work, double items, const Cost& cost, bool around,
+double LimitLoops::fraction(const Timed& work, double items, const Cost& cost, bool non_temporal,
                             std::string* binds) const {
   Timed limit;
   Timed actual;
   for (std::size_t round = 0; round < std::min(work.rounds.size(), load_.rounds.size()); ++round) {
-    limit.rounds.push_back(items * seconds_of(round, cost, around, binds));
+    limit.rounds.push_back(items * seconds_of(round, cost, non_temporal, binds));
     actual.rounds.push_back(work.rounds[round]);
   }
   return median_ratio(limit, actual);

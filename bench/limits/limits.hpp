@@ -35,11 +35,12 @@ class LimitLoops {
   std::vector<Timed*> timed();
   MachineLimit limit() const;
   /// Least seconds of an item in each round, and what it is that binds it: median of the rounds' fractions
-  /// that `work` reaches, which does `items` a run. `around`: it stores round the caches.
-  double fraction(const Timed& work, double items, const Cost& cost, bool around, std::string* binds) const;
+  /// that `work` reaches, which does `items` a run. `non_temporal`: with such stores.
+  double fraction(const Timed& work, double items, const Cost& cost, bool non_temporal,
+                  std::string* binds) const;
 
  private:
-  double seconds_of(std::size_t round, const Cost& cost, bool around, std::string* binds) const;
+  double seconds_of(std::size_t round, const Cost& cost, bool non_temporal, std::string* binds) const;
   std::string isa_;
   int threads_;
   MemoryLevel level_;

@@ -44,14 +44,14 @@ LaneMemory::LaneMemory(const Operation& operation, float* memory, std::size_t by
   target_ = source_ + in_.planes * source_plane_;
 }
 
-Arrays LaneMemory::arrays(std::size_t first, std::size_t count, bool around) const {
+Arrays LaneMemory::arrays(std::size_t first, std::size_t count, bool non_temporal) const {
   Arrays out;
   out.source = source_ + first * in_.block_bytes();
   out.target = target_ + first * out_.block_bytes();
   out.source_plane = source_plane_;
   out.target_plane = target_plane_;
   out.blocks = count;
-  out.around = around;
+  out.non_temporal = non_temporal;
   return out;
 }
 

@@ -18,7 +18,7 @@ class LaneMemory {
 
   std::size_t blocks() const noexcept { return blocks_; }
   std::size_t lanes() const noexcept { return blocks_ * kernels::kLanes; }
-  Arrays arrays(std::size_t first, std::size_t count, bool around) const;
+  Arrays arrays(std::size_t first, std::size_t count, bool non_temporal) const;
 
   /// Values of a lane, [planes][rows]; halves are rounded, whole numbers limited to what double holds.
   void write(std::size_t lane, const float* values);

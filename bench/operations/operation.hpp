@@ -53,7 +53,7 @@ struct Arrays {
   std::size_t source_plane = 0;  ///< bytes from plane to plane
   std::size_t target_plane = 0;
   std::size_t blocks = 0;
-  bool around = false;  ///< store round the caches, where the kernel can
+  bool non_temporal = false;  ///< non-temporal stores, where the kernel has them
 
   std::size_t n() const noexcept { return blocks * kernels::kLanes; }
   template <class T = float>

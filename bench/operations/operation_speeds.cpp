@@ -38,13 +38,13 @@ void prepare(Entry& entry, float* memory, const SpeedPlace& place) {
   }
   entry.memory->repeat(filled);
   if (op.clear) op.clear(entry.memory->arrays(0, entry.memory->blocks(), false));
-  const bool around = place.level == MemoryLevel::kMemory && op.can_stream;
+  const bool non_temporal = place.level == MemoryLevel::kMemory && op.can_stream;
   const std::size_t passes = passes_at(place.level);
   entry.items = static_cast<double>(entry.memory->lanes() * passes);
   entry.timed.run = [&op, lanes = entry.memory.get(), table = place.table, threads = place.threads, passes,
-                     around] {
+                     non_temporal] {
     over_parts(lanes->blocks(), threads, passes, [&](std::size_t first, std::size_t count) {
-      op.run(*table, lanes->arrays(first, count, around));
+      op.run(*table, lanes->arrays(first, count, non_temporal));
     });
   };
 }
@@ -62,10 +62,10 @@ OperationSpeed speed_of(const Entry& entry, const LimitLoops& limits, const Spee
   out.items_per_second = entry.items / entry.timed.seconds;
   out.bytes_per_second = out.items_per_second * (cost.read_bytes + cost.written_bytes);
   out.spread = entry.timed.spread;
-  const bool around = place.level == MemoryLevel::kMemory && op.can_stream;
-  out.fraction = limits.fraction(entry.timed, entry.items, cost, around, &out.limit);
+  const bool non_temporal = place.level == MemoryLevel::kMemory && op.can_stream;
+  out.fraction = limits.fraction(entry.timed, entry.items, cost, non_temporal, &out.limit);
   // Once more for the judge: what was timed has been added up many times over.
-  const Arrays again = entry.memory->arrays(0, std::min(entry.memory->blocks(), kJudgedBlocks), around);
+  const Arrays again = entry.memory->arrays(0, std::min(entry.memory->blocks(), kJudgedBlocks), non_temporal);
   if (op.clear) op.clear(again);
   op.run(*place.table, again);
   Judged judged;

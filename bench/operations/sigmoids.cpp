@@ -137,7 +137,8 @@ void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const c[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_reach(c, a.out(3), rgb, upsampler->sigmoid()->table, upsampler->luminance().data(), a.n());
+    k.sigmoid_continuation(c, a.out(3), rgb, upsampler->sigmoid()->table, upsampler->luminance().data(),
+                           a.n());
   };
   const std::array<float, 3> luminance = upsampler->luminance();
   op.error = [=](const double* rgb, const double* out, double tiny) {
@@ -157,7 +158,7 @@ void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
     const double grey = std::min(y, 1 - y);
     const auto met = std::min(static_cast<double>(kernels::kSigmoidUnsolved),
                               std::abs(grey) * static_cast<double>(kernels::kSigmoidMet));
-    const double near = std::abs(grey) * static_cast<double>(kernels::kReachNear);
+    const double near = std::abs(grey) * static_cast<double>(kernels::kContinuationNear);
     const double found = std::max(part < 1 ? near : met, static_cast<double>(kernels::kSigmoidRounding));
     const auto sum = sums_of(table, out);
     const auto rounding = rounding_of_sums(table, out);
@@ -204,7 +205,8 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_blocks(a.out(), c, nullptr, upsampler->sigmoid()->table.rows, false, bands, a.blocks, a.around);
+    k.sigmoid_blocks(a.out(), c, nullptr, upsampler->sigmoid()->table.rows, false, bands, a.blocks,
+                     a.non_temporal);
   };
   blocks.error = samples_error;
   to.push_back(std::move(blocks));

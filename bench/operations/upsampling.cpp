@@ -90,7 +90,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_blocks(a.out(), rgb, upsampler->table(), upsampler->lowest(), bands, a.blocks, a.around);
+    k.smits_blocks(a.out(), rgb, upsampler->table(), upsampler->lowest(), bands, a.blocks, a.non_temporal);
   };
   op.error = mixture_error(basis_of(*upsampler), bands, 0);
   to.push_back(op);
@@ -186,7 +186,7 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
   op.binds = "copied first, as it works in place; six quotients a colour";
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const rgb[3] = {a.out(0), a.out(1), a.out(2)};
-    for (std::size_t c = 0; c < 3; ++c) k.limit_copy(rgb[c], a.in(c), a.n());
+    for (std::size_t c = 0; c < 3; ++c) k.peak_copy(rgb[c], a.in(c), a.n());
     thread_local std::vector<std::uint64_t> moved;
     moved.resize(a.blocks);
     k.gamut_clip(rgb, weights.data(), 0.0F, 1.0F, moved.data(), a.n());

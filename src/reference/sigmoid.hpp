@@ -23,14 +23,15 @@ float sigmoid_sample(const float c[3], float lambda) noexcept;
 bool sigmoid_coefficients(float c[3], const float rgb[3], const kernels::SigmoidTable& table) noexcept;
 
 /// Coefficients for the part of the line from the colour's grey to the colour that sigmoids have; that part.
-float sigmoid_reach(float c[3], const float rgb[3], const kernels::SigmoidTable& table,
-                    const float luminance[3]) noexcept;
+float sigmoid_continuation(float c[3], const float rgb[3], const kernels::SigmoidTable& table,
+                           const float luminance[3]) noexcept;
 
 // The twins of the kernels of the same names.
 void sigmoid_solve(float* const c[3], const float* const rgb[3], const kernels::SigmoidTable& table,
                    std::uint64_t* unsolved, std::size_t n) noexcept;
-void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3],
-                   const kernels::SigmoidTable& table, const float luminance[3], std::size_t n) noexcept;
+void sigmoid_continuation(float* const c[3], float* reached, const float* const rgb[3],
+                          const kernels::SigmoidTable& table, const float luminance[3],
+                          std::size_t n) noexcept;
 void sigmoid_blocks(float* dst, const float* const c[3], const float* scale, const float* rows, bool white,
                     std::size_t bands, std::size_t blocks, bool stream) noexcept;
 void sigmoid_rows_float(void* const* out, const float* const c[3], const float* scale, const float* rows,

@@ -39,12 +39,13 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const kernels::
   }
 }
 
-void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3],
-                   const kernels::SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
+void sigmoid_continuation(float* const c[3], float* reached, const float* const rgb[3],
+                          const kernels::SigmoidTable& table, const float luminance[3],
+                          std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const float color[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};
     float lane[3];
-    reached[i] = sigmoid_reach(lane, color, table, luminance);
+    reached[i] = sigmoid_continuation(lane, color, table, luminance);
     for (std::size_t k = 0; k < 3; ++k) c[k][i] = lane[k];
   }
 }

@@ -7,7 +7,7 @@
 #include "src/reference/arithmetic.hpp"
 #include "src/reference/film.hpp"
 #include "src/reference/half.hpp"
-#include "src/reference/limits.hpp"
+#include "src/reference/peak.hpp"
 #include "src/reference/sigmoid.hpp"
 #include "src/reference/smits.hpp"
 #include "src/reference/sums.hpp"
@@ -165,7 +165,7 @@ const kernels::KernelTable table = {
     .smits_rows_half = smits_rows_half,
     .smits_fold = smits_fold,
     .sigmoid_solve = sigmoid_solve,
-    .sigmoid_reach = sigmoid_reach,
+    .sigmoid_continuation = sigmoid_continuation,
     .sigmoid_blocks = sigmoid_blocks,
     .sigmoid_rows_float = sigmoid_rows_float,
     .sigmoid_rows_half = sigmoid_rows_half,
@@ -191,12 +191,12 @@ const kernels::KernelTable table = {
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
     .scan_rgb = scan_rgb,
-    .limit_load = limit_load,
-    .limit_store = limit_store,
-    .limit_copy = limit_copy,
-    .limit_multiply_add = limit_multiply_add,
-    .limit_fused = limit_fused,
-    .limit_divide = limit_divide,
+    .peak_load = peak_load,
+    .peak_store = peak_store,
+    .peak_copy = peak_copy,
+    .peak_multiply_add = peak_multiply_add,
+    .peak_fused = peak_fused,
+    .peak_divide = peak_divide,
 };
 
 }  // namespace spectile::reference

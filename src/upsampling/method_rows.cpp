@@ -32,7 +32,7 @@ void normalize(const float* const rgb[3], float* const out[3], float* scale, std
   }
 }
 
-/// Lanes gathered for sigmoid_reach.
+/// Lanes gathered for sigmoid_continuation.
 struct Group {
   alignas(64) float rgb[3][kLanes];
   alignas(64) float c[3][kLanes];
@@ -47,8 +47,8 @@ void reach_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
   float* const out[3] = {group.c[0], group.c[1], group.c[2]};
   const float* const rgb[3] = {group.rgb[0], group.rgb[1], group.rgb[2]};
-  kernels.sigmoid_reach(out, group.part, rgb, upsampler.sigmoid()->table, upsampler.luminance().data(),
-                        kLanes);
+  kernels.sigmoid_continuation(out, group.part, rgb, upsampler.sigmoid()->table, upsampler.luminance().data(),
+                               kLanes);
   for (std::size_t i = 0; i < group.count; ++i) {
     const std::size_t lane = group.lane[i];
     for (std::size_t k = 0; k < 3; ++k) c[k][lane] = group.c[k][i];

@@ -297,7 +297,7 @@ TEST(Ciede2000Batch, KeepsBadLanesToThemselves) {
 
 TEST(Ciede2000Batch, ThreadsAndTilesDoNotChangeBits) {
   constexpr std::size_t kLanes = 20001;
-  const auto a = color_lanes(kLanes, wild_floats(20011, 12));
+  const auto a = color_lanes(kLanes, arbitrary_floats(20011, 12));
   const auto b = color_lanes(kLanes, plain_floats(20021, 13));
   auto want = *ScalarLanes::create(kLanes);
   ASSERT_TRUE(ciede2000(a.view(), b.view(), kWhite, want.span(), {1, kLanes}));

@@ -193,7 +193,7 @@ TEST(Project, AgreesWithTheOracle) {
 
 TEST(Project, LuminanceHasTheBitsOfY) {
   for (const std::size_t lanes : kSizes) {
-    const auto spectra = batch_from(Bands(), lanes, wild_floats(20011, 3));
+    const auto spectra = batch_from(Bands(), lanes, arbitrary_floats(20011, 3));
     const auto projector = *Projector::emissive(Bands());
     auto xyz = *ColorLanes::create(lanes);
     auto y = *ScalarLanes::create(lanes);
@@ -229,7 +229,7 @@ TEST(Project, LetsNanAndInfinitiesThrough) {
 TEST(Project, ThreadsAndTilesDoNotChangeBits) {
   constexpr std::size_t kLanes = 70001;
   const Bands bands = *Bands::uniform(400, 700, 50);
-  const auto spectra = batch_from(bands, kLanes, wild_floats(20011, 4));
+  const auto spectra = batch_from(bands, kLanes, arbitrary_floats(20011, 4));
   const auto projector = *Projector::emissive(bands);
   auto want = *ColorLanes::create(kLanes);
   ASSERT_TRUE(project(projector, spectra.view(), want.span(), {1, kLanes}));

@@ -152,7 +152,7 @@ RC_GTEST_PROP(ColorLaws, PermutedColoursGivePermutedSpectraAndRelitColours, ()) 
   const auto order = drawn_order(lanes);
   // The sigmoid's colours that are hard to find are searched together, in lanes of their own.
   const bool wild = lanes < 20 && *rc::gen::arbitrary<bool>();
-  const auto rgb = wild ? drawn_colours(lanes, Wild(drawn_random()))
+  const auto rgb = wild ? drawn_colours(lanes, ArbitraryFloat(drawn_random()))
                         : drawn_colours(lanes, Steps(drawn_random(), 0, 1, 20));
   const auto mixed = permuted(rgb, order);
   RC_ASSERT(same_lanes(upsampled(upsampler, mixed), permuted(upsampled(upsampler, rgb), order)));
@@ -171,7 +171,7 @@ RC_GTEST_PROP(ColorLaws, PermutedSpectraGivePermutedColours, ()) {
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
-  const auto spectra = drawn_spectra(bands, lanes, Wild(drawn_random()));
+  const auto spectra = drawn_spectra(bands, lanes, ArbitraryFloat(drawn_random()));
   RC_ASSERT(same_colours(projected(projector, permuted(spectra, order)),
                          permuted(projected(projector, spectra), order)));
 }
@@ -179,7 +179,7 @@ RC_GTEST_PROP(ColorLaws, PermutedSpectraGivePermutedColours, ()) {
 RC_GTEST_PROP(ColorLaws, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
   const auto& upsampler = upsampler_for(drawn_method(), drawn_quantity(), drawn_bands(), drawn_negative());
   const std::size_t lanes = drawn_lanes();
-  const auto rgb = lanes < 20 ? drawn_colours(lanes, Wild(drawn_random()))
+  const auto rgb = lanes < 20 ? drawn_colours(lanes, ArbitraryFloat(drawn_random()))
                               : drawn_colours(lanes, Steps(drawn_random(), 0, 1, 20));
   auto found = *CoefficientLanes::create(upsampler, lanes);
   auto expanded = *SampledSpectra::create(upsampler.bands(), lanes);

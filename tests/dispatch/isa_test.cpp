@@ -76,7 +76,7 @@ TEST_F(Isa, NamesOfOtherMachinesAreSaidToBeUnavailable) {
 
 TEST_F(Isa, ResultsDoNotDependOnIt) {
   const Bands bands;
-  const auto a = batch_from(bands, 4099, wild_floats(10007, 5));
+  const auto a = batch_from(bands, 4099, arbitrary_floats(10007, 5));
   auto want = *SampledSpectra::create(bands, 4099);
   ASSERT_TRUE(force_isa("scalar"));
   ASSERT_TRUE(pow(a.view(), 2.4F, want.span()));

@@ -74,7 +74,7 @@ RC_GTEST_PROP(FilmLaws, BandSamplesObeyTheSameLaws, ()) {
   const auto order = drawn_order(n);
   BandBatch samples(10, n);
   BandBatch crossed(10, n);
-  Wild wild(drawn_random());
+  ArbitraryFloat wild(drawn_random());
   Steps place(drawn_random(), 0, 20, 16);
   for (std::size_t i = 0; i < n; ++i) {
     samples.put(i, place(), place(), std::abs(place()));
@@ -177,7 +177,7 @@ RC_GTEST_PROP(FilmLaws, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
 RC_GTEST_PROP(FilmLaws, SamplesThatAreNotNegativeMakeNoNegativePixel, ()) {
   const FilmOptions o = drawn_film();
   FilmSamples samples = drawn_samples(drawn_lanes());
-  Wild wild(drawn_random());
+  ArbitraryFloat wild(drawn_random());
   std::mt19937 random = drawn_random();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t k = 0; k < FilmSamples::kCount; ++k) {

@@ -35,7 +35,7 @@ class Kernels : public KernelTest {
 TEST_P(Kernels, UnaryOperationsGiveTheReferencesBits) {
   for (const Unary f : {&KernelTable::negate, &KernelTable::sqrt, &KernelTable::exp}) {
     for (const std::size_t lanes : kSizes) {
-      const Floats a = wild_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
+      const Floats a = arbitrary_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
       expect_same(a.size(), [&](const KernelTable& t, float* dst) { (t.*f)(dst, a.data(), a.size()); });
     }
   }
@@ -43,7 +43,7 @@ TEST_P(Kernels, UnaryOperationsGiveTheReferencesBits) {
 
 TEST_P(Kernels, UnaryOperationsWorkInPlace) {
   for (const Unary f : {&KernelTable::negate, &KernelTable::sqrt, &KernelTable::exp}) {
-    const Floats a = wild_floats(17 * kLanes, 4);
+    const Floats a = arbitrary_floats(17 * kLanes, 4);
     expect_same(a.size(), [&](const KernelTable& t, float* dst) {
       std::copy_n(a.data(), a.size(), dst);
       (t.*f)(dst, dst, a.size());
@@ -55,8 +55,8 @@ TEST_P(Kernels, BinaryOperationsGiveTheReferencesBits) {
   for (const Binary f : {&KernelTable::add, &KernelTable::subtract, &KernelTable::multiply,
                          &KernelTable::divide, &KernelTable::divide_or_zero}) {
     for (const std::size_t lanes : kSizes) {
-      const Floats a = wild_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes) + 100);
-      const Floats b = wild_floats(a.size(), static_cast<std::uint32_t>(lanes) + 200);
+      const Floats a = arbitrary_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes) + 100);
+      const Floats b = arbitrary_floats(a.size(), static_cast<std::uint32_t>(lanes) + 200);
       expect_same(a.size(),
                   [&](const KernelTable& t, float* dst) { (t.*f)(dst, a.data(), b.data(), a.size()); });
     }
@@ -86,7 +86,7 @@ TEST_P(Kernels, BinaryOperationsGiveTheReferencesBitsForEveryPairOfSpecialValues
 }
 
 TEST_P(Kernels, ScaleAndClampGiveTheReferencesBits) {
-  const Floats a = wild_floats(65 * kLanes, 11);
+  const Floats a = arbitrary_floats(65 * kLanes, 11);
   for (const float s : special_values()) {
     expect_same(a.size(), [&](const KernelTable& t, float* dst) { t.scale(dst, a.data(), s, a.size()); });
   }
@@ -100,9 +100,9 @@ TEST_P(Kernels, ScaleAndClampGiveTheReferencesBits) {
 
 TEST_P(Kernels, MultiplyAddGivesTheReferencesBitsAndRoundsTwice) {
   for (const std::size_t lanes : kSizes) {
-    const Floats a = wild_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes) + 1);
-    const Floats b = wild_floats(a.size(), static_cast<std::uint32_t>(lanes) + 2);
-    const Floats c = wild_floats(a.size(), static_cast<std::uint32_t>(lanes) + 3);
+    const Floats a = arbitrary_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes) + 1);
+    const Floats b = arbitrary_floats(a.size(), static_cast<std::uint32_t>(lanes) + 2);
+    const Floats c = arbitrary_floats(a.size(), static_cast<std::uint32_t>(lanes) + 3);
     expect_same(a.size(), [&](const KernelTable& t, float* dst) {
       t.multiply_add(dst, a.data(), b.data(), c.data(), a.size());
     });
@@ -119,8 +119,8 @@ TEST_P(Kernels, MultiplyAddGivesTheReferencesBitsAndRoundsTwice) {
 }
 
 TEST_P(Kernels, LerpGivesTheReferencesBits) {
-  const Floats a = wild_floats(65 * kLanes, 21);
-  const Floats b = wild_floats(65 * kLanes, 22);
+  const Floats a = arbitrary_floats(65 * kLanes, 21);
+  const Floats b = arbitrary_floats(65 * kLanes, 22);
   for (const float t : {0.0F, 1.0F, 0.5F, 0.1F, 1.0F / 3.0F, -2.0F, 7.5F, 0x1p-25F, kInf, kNan}) {
     expect_same(a.size(), [&](const KernelTable& table, float* dst) {
       table.lerp(dst, a.data(), b.data(), t, a.size());
@@ -142,7 +142,7 @@ TEST_P(Kernels, PowGivesTheReferencesBitsForEveryKindOfExponent) {
       2.2F,   1e8F, -1e8F, 1e-8F, 16777215.0F,   -16777215.0F, 8388607.5F, 0.999F,
       149.0F, -149, 37.5F, 128,   2147483648.0F, 4294967296.0F};
   exponents.insert(exponents.end(), special_values().begin(), special_values().end());
-  const Floats a = wild_floats(32 * kLanes, 31);
+  const Floats a = arbitrary_floats(32 * kLanes, 31);
   for (const float y : exponents) {
     SCOPED_TRACE("to the " + std::to_string(y));
     expect_same(a.size(), [&](const KernelTable& t, float* dst) { t.pow(dst, a.data(), y, a.size()); });
@@ -159,7 +159,7 @@ TEST_P(Kernels, ExtremesPerLaneGiveTheReferencesBits) {
     for (const std::size_t bands : kBandCounts) {
       for (const std::size_t lanes : kSizes) {
         const std::size_t blocks = blocks_for(lanes);
-        const Floats a = wild_floats(blocks * bands * kLanes, static_cast<std::uint32_t>(lanes + bands));
+        const Floats a = arbitrary_floats(blocks * bands * kLanes, static_cast<std::uint32_t>(lanes + bands));
         expect_same(blocks * kLanes,
                     [&](const KernelTable& t, float* dst) { (t.*f)(dst, a.data(), bands, blocks); });
       }
@@ -222,13 +222,14 @@ TEST_P(Kernels, MasksHaveExactlyTheBitOfTheLaneConcerned) {
 }
 
 TEST_P(Kernels, WeightedSumsGiveTheReferencesBits) {
-  for (const bool wild : {false, true}) {
+  for (const bool arbitrary : {false, true}) {
     for (const std::size_t bands : kBandCounts) {
-      const Floats weights = wild ? wild_floats(4 * bands, 41) : plain_floats(4 * bands, 42, -0.1F, 2.0F);
+      const Floats weights =
+          arbitrary ? arbitrary_floats(4 * bands, 41) : plain_floats(4 * bands, 42, -0.1F, 2.0F);
       for (const std::size_t lanes : kSizes) {
         const std::size_t blocks = blocks_for(lanes);
         const std::size_t n = blocks * kLanes;
-        const Floats a = wild ? wild_floats(n * bands, 43) : plain_floats(n * bands, 44);
+        const Floats a = arbitrary ? arbitrary_floats(n * bands, 43) : plain_floats(n * bands, 44);
         expect_same(n, [&](const KernelTable& t, float* dst) {
           t.weighted_sum(dst, a.data(), weights.data(), bands, blocks);
         });
@@ -241,11 +242,11 @@ TEST_P(Kernels, WeightedSumsGiveTheReferencesBits) {
 }
 
 TEST_P(Kernels, TransformGivesTheReferencesBitsAlsoInPlace) {
-  for (const bool wild : {false, true}) {
-    const Floats m = wild ? wild_floats(9, 51) : plain_floats(9, 52, -2.0F, 3.0F);
+  for (const bool arbitrary : {false, true}) {
+    const Floats m = arbitrary ? arbitrary_floats(9, 51) : plain_floats(9, 52, -2.0F, 3.0F);
     for (const std::size_t lanes : kSizes) {
       const std::size_t n = blocks_for(lanes) * kLanes;
-      const Floats a = wild ? wild_floats(3 * n, 53) : plain_floats(3 * n, 54, -1.0F, 2.0F);
+      const Floats a = arbitrary ? arbitrary_floats(3 * n, 53) : plain_floats(3 * n, 54, -1.0F, 2.0F);
       const float* const src[3] = {a.data(), a.data() + n, a.data() + 2 * n};
       expect_same(3 * n, [&](const KernelTable& t, float* dst) {
         float* const out[3] = {dst, dst + n, dst + 2 * n};

@@ -114,7 +114,7 @@ TEST_P(ConvertKernels, ConversionTakesAnyAlignmentAndStaysInItsArrays) {
   for (const std::size_t lanes : kSizes) {
     const std::size_t n = blocks_for(lanes) * kLanes;
     for (const std::size_t shift : {std::size_t{1}, std::size_t{3}, std::size_t{7}}) {
-      const Floats in = wild_floats(n + shift, 61);
+      const Floats in = arbitrary_floats(n + shift, 61);
       std::vector<std::uint16_t> got(n + shift + 16, 0xABCDU);
       std::vector<std::uint16_t> want = got;
       k().float_to_half(got.data() + shift, in.data() + shift, n);
@@ -137,7 +137,7 @@ TEST_P(ConvertKernels, ScanCountsLikeTheReference) {
   for (const std::size_t lanes : kSizes) {
     const std::size_t n = blocks_for(lanes) * kLanes;
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
-      const Floats a = seed < 4 ? wild_floats(3 * n, seed) : plain_floats(3 * n, seed, -0.5F, 1.5F);
+      const Floats a = seed < 4 ? arbitrary_floats(3 * n, seed) : plain_floats(3 * n, seed, -0.5F, 1.5F);
       const float* const rgb[3] = {a.data(), a.data() + n, a.data() + 2 * n};
       const RgbScan start = {5, 7, 11, seed % 2 == 0 ? 0.0F : 0.75F};
       RgbScan got = start;

@@ -17,11 +17,11 @@ constexpr std::int32_t kIntervals = 470;
 
 /// Rows of numbers that renderers hand over, with some that they should not.
 struct Rows {
-  Rows(std::size_t count, std::uint32_t seed, float low, float high, bool wild) {
+  Rows(std::size_t count, std::uint32_t seed, float low, float high, bool arbitrary) {
     for (std::size_t k = 0; k < count; ++k) {
       rows.push_back(plain_floats(kSamples, seed + static_cast<std::uint32_t>(k), low, high));
-      const Floats strange = wild_floats(kSamples, seed + 100 + static_cast<std::uint32_t>(k));
-      for (std::size_t i = k; wild && i < kSamples; i += 13) rows.back()[i] = strange[i];
+      const Floats strange = arbitrary_floats(kSamples, seed + 100 + static_cast<std::uint32_t>(k));
+      for (std::size_t i = k; arbitrary && i < kSamples; i += 13) rows.back()[i] = strange[i];
     }
     for (const Floats& row : rows) pointers.push_back(row.data());
   }
@@ -30,10 +30,10 @@ struct Rows {
 };
 
 struct Batch {
-  explicit Batch(std::size_t count, bool wild)
-      : radiance(count, 1, -1, 50, wild),
-        lambda(count, 40, 350, 840, wild),
-        density(count, 80, 0.001F, 0.01F, wild),
+  explicit Batch(std::size_t count, bool arbitrary)
+      : radiance(count, 1, -1, 50, arbitrary),
+        lambda(count, 40, 350, 840, arbitrary),
+        density(count, 80, 0.001F, 0.01F, arbitrary),
         weight(plain_floats(kSamples, 7, 0.1F, 3)),
         position_x(plain_floats(kSamples, 8, -3, 70)),
         position_y(plain_floats(kSamples, 9, -3, 40)) {
@@ -41,8 +41,8 @@ struct Batch {
     for (std::size_t i = 5; i < kSamples; i += 19) lambda.rows[i % count][i] = std::round(400 + i % 400);
     lambda.rows[0][0] = 830;
     lambda.rows[0][1] = 360;
-    if (!wild) return;
-    const Floats strange = wild_floats(kSamples, 10);
+    if (!arbitrary) return;
+    const Floats strange = arbitrary_floats(kSamples, 10);
     for (std::size_t i = 0; i < kSamples; i += 11) weight[i] = strange[i];
     for (std::size_t i = 3; i < kSamples; i += 23) position_x[i] = strange[i];
     for (std::size_t i = 4; i < kSamples; i += 29) position_y[i] = strange[i];
@@ -89,8 +89,8 @@ TEST_P(FilmKernels, WavelengthsWeighAsInTheReference) {
   const Floats rows = curves();
   const kernels::FilmCurves table = {rows.data(), 360, kIntervals, 4};
   for (const std::size_t count : {1, 3, 4, 8, 9, 64}) {
-    for (const bool wild : {false, true}) {
-      const Batch b(count, wild);
+    for (const bool arbitrary : {false, true}) {
+      const Batch b(count, arbitrary);
       for (const kernels::FilmLimits& limits : {kLoose, kTight}) {
         for (const bool weighted : {false, true}) {
           for (const bool luminance : {false, true}) {
@@ -113,8 +113,8 @@ TEST_P(FilmKernels, WavelengthsWeighAsInTheReference) {
 TEST_P(FilmKernels, BandsWeighAsInTheReference) {
   for (const std::size_t bands : {1, 3, 8, 9, 60}) {
     const Floats weights = plain_floats(4 * bands, 5, 0, 0.02F);
-    for (const bool wild : {false, true}) {
-      const Batch b(bands, wild);
+    for (const bool arbitrary : {false, true}) {
+      const Batch b(bands, arbitrary);
       for (const kernels::FilmLimits& limits : {kLoose, kTight}) {
         const auto run = [&](const KernelTable& t) {
           Weighed out;
@@ -150,8 +150,8 @@ TEST_P(FilmKernels, HitsAreTheReferences) {
   const std::int32_t start[] = {0, 2, 4, 4};
   const kernels::BucketTable table = {edges, band, 6, start, 4.0F / 300, 4, 2};
   for (const std::size_t count : {1, 4, 7}) {
-    for (const bool wild : {false, true}) {
-      const Batch b(count, wild);
+    for (const bool arbitrary : {false, true}) {
+      const Batch b(count, arbitrary);
       for (const kernels::FilmLimits& limits : {kLoose, kTight}) {
         const auto run = [&](const KernelTable& t, std::vector<std::int32_t>& bands, Floats& hits) {
           std::vector<std::int32_t> reasons(kSamples, 0);

@@ -44,11 +44,11 @@ class GamutKernels : public KernelTest {
 
 TEST_P(GamutKernels, LimitsAreTheReferencesForEveryKindOfColour) {
   const float limits[][2] = {{0, 1}, {0, kInf}, {-kInf, kInf}, {0.25F, 0.25F}, {-0.5F, 2.0F}, {kTiny, kMost}};
-  const Floats wild = wild_floats(3, 1);
+  const Floats arbitrary = arbitrary_floats(3, 1);
   for (const std::size_t lanes : kSizes) {
     const Floats rgb = telling_colours(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
     for (const auto& [low, high] : limits) {
-      for (const float* weights : {kLuminance, wild.data()}) {
+      for (const float* weights : {kLuminance, arbitrary.data()}) {
         const Limited got = limited(k(), rgb, weights, low, high);
         const Limited want = limited(ref(), rgb, weights, low, high);
         ASSERT_TRUE(same_bits(got.rgb, want.rgb)) << lanes << " lanes, " << low << " to " << high;
@@ -75,8 +75,9 @@ TEST_P(GamutKernels, ColoursInsideKeepTheirBitsAndOthersHaveTheirBit) {
 }
 
 TEST_P(GamutKernels, FoldsAreTheReferencesAlsoInPlace) {
-  for (const bool wild : {false, true}) {
-    const Floats table = wild ? wild_floats(3 * kSmitsRow, 3) : plain_floats(3 * kSmitsRow, 4, -0.5F, 1.5F);
+  for (const bool arbitrary : {false, true}) {
+    const Floats table =
+        arbitrary ? arbitrary_floats(3 * kSmitsRow, 3) : plain_floats(3 * kSmitsRow, 4, -0.5F, 1.5F);
     for (const std::size_t lanes : kSizes) {
       const std::size_t n = blocks_for(lanes) * kLanes;
       const Floats rgb = telling_colours(n, 5);

@@ -60,8 +60,8 @@ TEST(KernelState, NoWideRegistersAreLeftInUse) {
         op.fill(random, values.data());
         lanes.write(lane, values.data());
       }
-      for (const bool around : {false, true}) {
-        const measure::Arrays arrays = lanes.arrays(0, lanes.blocks(), around);
+      for (const bool non_temporal : {false, true}) {
+        const measure::Arrays arrays = lanes.arrays(0, lanes.blocks(), non_temporal);
         const unsigned mode = __builtin_ia32_stmxcsr() & 0xFFC0U;
         clear_upper_parts();
         op.run(*table, arrays);

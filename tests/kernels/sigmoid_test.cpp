@@ -59,7 +59,7 @@ Floats telling_colours(std::size_t n, std::uint32_t seed) {
 /// Coefficients whose polynomial or its square is huge, tiny, denormal, infinite or no number, and ordinary
 /// ones.
 Floats telling_coefficients(std::size_t n, std::uint32_t seed) {
-  Floats out = wild_floats(3 * n, seed);
+  Floats out = arbitrary_floats(3 * n, seed);
   const Floats plain = plain_floats(3 * n, seed + 1, -20.0F, 20.0F);
   for (std::size_t i = 0; i < 3 * n; ++i) {
     if (i % n % 3 == 1) out[i] = plain[i];
@@ -112,9 +112,9 @@ TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryCountOfBands) {
 
 TEST_P(SigmoidKernels, SolutionsAreTheReferencesForTablesOfAnyBits) {
   constexpr std::int32_t kSteps = 3;
-  for (const bool wild : {false, true}) {
+  for (const bool arbitrary : {false, true}) {
     const auto floats = [&](std::size_t n, std::uint32_t seed) {
-      return wild ? wild_floats(n, seed) : plain_floats(n, seed, -1.0F, 1.0F);
+      return arbitrary ? arbitrary_floats(n, seed) : plain_floats(n, seed, -1.0F, 1.0F);
     };
     const Floats rows = floats(9 * kSigmoidRow, 11);
     const Floats weights = floats(4 * 9, 12);
@@ -157,14 +157,14 @@ TEST_P(SigmoidKernels, ALaneDoesNotDependOnItsNeighbours) {
 
 TEST_P(SigmoidKernels, BlocksAreTheReferencesHoweverStoredAndScaled) {
   for (const std::size_t bands : {1, 2, 7, 8, 9, 31, 60, 65}) {
-    const Floats wild_rows = wild_floats(bands * kSigmoidRow, 21);
+    const Floats arbitrary_rows = arbitrary_floats(bands * kSigmoidRow, 21);
     for (const std::size_t lanes : {std::size_t{1}, std::size_t{65}, bands == 60 ? std::size_t{4099} : 17}) {
       const std::size_t blocks = blocks_for(lanes);
       const std::size_t n = blocks * kLanes;
       const Floats coefficients = telling_coefficients(n, 22);
-      const Floats scales = wild_floats(n, 23);
+      const Floats scales = arbitrary_floats(n, 23);
       const float* const c[3] = {coefficients.data(), coefficients.data() + n, coefficients.data() + 2 * n};
-      for (const float* rows : {sigmoid_table(bands).rows, wild_rows.data()}) {
+      for (const float* rows : {sigmoid_table(bands).rows, arbitrary_rows.data()}) {
         for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
           for (const bool white : {false, true}) {
             Floats want(n * bands);
@@ -251,7 +251,7 @@ void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t 
 }
 
 TEST_P(SigmoidKernels, RowsAreTheReferencesAtAnyAddressAndLength) {
-  const Floats scales = wild_floats(4160, 41);
+  const Floats scales = arbitrary_floats(4160, 41);
   const auto both = [&](std::size_t n, std::size_t bands, const float* scale, bool white) {
     expect_same_rows<float>(&KernelTable::sigmoid_rows_float, n, bands, scale, white);
     expect_same_rows<std::uint16_t>(&KernelTable::sigmoid_rows_half, n, bands, scale, white);
@@ -271,7 +271,7 @@ TEST_P(SigmoidKernels, ProjectionsAreTheReferencesAlsoInPlace) {
       const Floats c = telling_coefficients(n, 51);
       const Floats scales = plain_floats(n, 52, 0.0F, 4.0F);
       const Floats weights =
-          lanes == 65 ? wild_floats(4 * bands, 53) : plain_floats(4 * bands, 54, -0.1F, 2.0F);
+          lanes == 65 ? arbitrary_floats(4 * bands, 53) : plain_floats(4 * bands, 54, -0.1F, 2.0F);
       const float* const in[3] = {c.data(), c.data() + n, c.data() + 2 * n};
       for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
         const auto project = [&](const KernelTable& t, Floats& dst, bool in_place) {

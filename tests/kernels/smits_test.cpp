@@ -39,7 +39,7 @@ std::vector<Floats> tables(std::size_t bands) {
       *Upsampler::create(Method::kSmits, Quantity::kReflectance, *Bands::uniform(400, 400 + 5.0 * bands, 5));
   out.emplace_back(std::span(upsampler.table(), bands * kSmitsRow));
   out.push_back(plain_floats(bands * kSmitsRow, 71, -1.0F, 1.0F));
-  out.push_back(wild_floats(bands * kSmitsRow, 72));
+  out.push_back(arbitrary_floats(bands * kSmitsRow, 72));
   return out;
 }
 

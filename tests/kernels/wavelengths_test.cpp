@@ -7,7 +7,7 @@ namespace {
 constexpr std::size_t kAll = 4160;
 
 Floats wavelengths(std::uint32_t seed) {
-  Floats out = wild_floats(kAll, seed);
+  Floats out = arbitrary_floats(kAll, seed);
   const Floats plain = plain_floats(kAll, seed + 1, 340, 850);
   for (std::size_t i = 0; i < kAll; ++i) {
     if (i % 3 != 0) out[i] = plain[i];
@@ -30,7 +30,7 @@ class WavelengthKernels : public KernelTest {
 
 TEST_P(WavelengthKernels, LookUpsAreTheReferences) {
   const Floats lambda = wavelengths(1);
-  const Floats pairs = wild_floats(2 * 471, 2);
+  const Floats pairs = arbitrary_floats(2 * 471, 2);
   const Floats plain = plain_floats(2 * 471, 3);
   for (const Floats* table : {&pairs, &plain}) {
     for (const std::int32_t intervals : {1, 2, 470}) {
@@ -64,8 +64,8 @@ TEST_P(WavelengthKernels, FormulasAreTheReferences) {
 
 TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
   Floats u = plain_floats(kAll, 5);
-  const Floats wild = wild_floats(kAll, 6);
-  for (std::size_t i = 0; i < kAll; i += 5) u[i] = wild[i];
+  const Floats arbitrary = arbitrary_floats(kAll, 6);
+  for (std::size_t i = 0; i < kAll; i += 5) u[i] = arbitrary[i];
   const kernels::WavelengthDensity d = {360, 470, 538, 1 / 0.0072, 0.85691062, 1.82750197, 0.0039398042};
   constexpr std::size_t kCount = 5;
   const Floats pairs = plain_floats(3 * 2 * 470, 7);
@@ -86,7 +86,7 @@ TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
     ASSERT_TRUE(same_bits(got[0], want[0])) << visible;
     ASSERT_TRUE(same_bits(got[1], want[1])) << visible;
     for (std::size_t i = 0; i < kCount * kAll; i += 7) got[1][i] = 0;  // terminated
-    const Floats values = wild_floats(kCount * kAll, 8);
+    const Floats values = arbitrary_floats(kCount * kAll, 8);
     const auto project = [&](const kernels::KernelTable& t, Floats& out) {
       const float* rows[3][kCount];
       for (std::size_t k = 0; k < kCount; ++k) {

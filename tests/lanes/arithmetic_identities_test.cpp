@@ -58,11 +58,11 @@ std::int64_t most_steps(const SampledSpectra& a, const SampledSpectra& b) {
 RC_GTEST_PROP(Laws, PermutedLanesGivePermutedResults, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
-  SampledSpectra in[3] = {drawn_spectra(few_bands(), lanes, Wild(drawn_random())),
-                          drawn_spectra(few_bands(), lanes, Wild(drawn_random())),
-                          drawn_spectra(few_bands(), lanes, Wild(drawn_random()))};
+  SampledSpectra in[3] = {drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random())),
+                          drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random())),
+                          drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()))};
   const SampledSpectra mixed[3] = {permuted(in[0], order), permuted(in[1], order), permuted(in[2], order)};
-  const float number = Wild(drawn_random())();
+  const float number = ArbitraryFloat(drawn_random())();
   const auto all = [&](const SampledSpectra* x) {
     std::vector<SampledSpectra> out;
     for (const Binary f :
@@ -94,7 +94,7 @@ RC_GTEST_PROP(Laws, PermutedLanesGivePermutedResults, ()) {
 RC_GTEST_PROP(Laws, PermutedLanesHavePermutedExtremesAndAverages, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
-  const auto a = drawn_spectra(few_bands(), lanes, Wild(drawn_random()));
+  const auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   const auto mixed = permuted(a, order);
   for (const auto f : {&minimum, &maximum, &average}) {
     auto straight = *ScalarLanes::create(lanes);
@@ -109,8 +109,8 @@ RC_GTEST_PROP(Laws, PermutedLanesHavePermutedExtremesAndAverages, ()) {
 
 RC_GTEST_PROP(Laws, SumsAndProductsCommuteAndDifferencesFlip, ()) {
   const std::size_t lanes = drawn_lanes();
-  const auto a = drawn_spectra(few_bands(), lanes, Wild(drawn_random()));
-  const auto b = drawn_spectra(few_bands(), lanes, Wild(drawn_random()));
+  const auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
+  const auto b = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   RC_ASSERT(same_lanes(binary(&add, a, b), binary(&add, b, a)));
   RC_ASSERT(same_lanes(binary(&multiply, a, b), binary(&multiply, b, a)));
   RC_ASSERT(same_lanes(binary(&subtract, a, b), binary(&add, a, unary(&negate, b))));
@@ -202,7 +202,7 @@ RC_GTEST_PROP(Laws, SumsProductsAndMixturesRiseWithoutException, ()) {
 
 RC_GTEST_PROP(Laws, PowersAgreeWithProductsQuotientsAndRoots, ()) {
   const std::size_t lanes = drawn_lanes();
-  auto a = drawn_spectra(few_bands(), lanes, Wild(drawn_random()));
+  auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   const auto one = *SampledSpectra::constant(few_bands(), lanes, 1);
   // An error below 0.501 ULP leaves what float can hold as it is.
   RC_ASSERT(same_lanes(power(a, 1), a));
@@ -218,9 +218,9 @@ RC_GTEST_PROP(Laws, PowersAgreeWithProductsQuotientsAndRoots, ()) {
 
 RC_GTEST_PROP(Laws, FloatsComeBackFromHalfWithinHalfAStep, ()) {
   std::vector<float> values(256);
-  Wild wild(drawn_random());
+  ArbitraryFloat arbitrary(drawn_random());
   for (float& v : values) {
-    do v = wild();
+    do v = arbitrary();
     while (!(std::abs(v) < 65504));  // NaN and infinities have tests of their own
     if (*rc::gen::inRange(0, 2) == 0)
       v = std::ldexp(std::frexp(v, std::array<int, 1>{}.data()), *rc::gen::inRange(-25, 16));

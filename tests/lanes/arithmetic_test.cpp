@@ -71,9 +71,9 @@ std::vector<Operation> operations() {
 TEST(Arithmetic, EveryOperationIsItsFormulaForEverySizeAndWildSamples) {
   const Bands bands = *Bands::uniform(400, 430, 10);
   for (const std::size_t lanes : kSizes) {
-    const auto a = batch_from(bands, lanes, wild_floats(3 * lanes, 1));
-    const auto b = batch_from(bands, lanes, wild_floats(3 * lanes, 2));
-    const auto c = batch_from(bands, lanes, wild_floats(3 * lanes, 3));
+    const auto a = batch_from(bands, lanes, arbitrary_floats(3 * lanes, 1));
+    const auto b = batch_from(bands, lanes, arbitrary_floats(3 * lanes, 2));
+    const auto c = batch_from(bands, lanes, arbitrary_floats(3 * lanes, 3));
     for (const Operation& op : operations()) {
       auto out = *SampledSpectra::create(bands, lanes);
       ASSERT_TRUE(op.run(a.view(), b.view(), c.view(), out.span(), {})) << op.name;
@@ -90,9 +90,9 @@ TEST(Arithmetic, OutputMayBeAnyOfTheInputs) {
   constexpr std::size_t kLanes = 4099;
   for (const Operation& op : operations()) {
     for (int which = 0; which < 3; ++which) {
-      SampledSpectra in[3] = {batch_from(bands, kLanes, wild_floats(997, 1)),
-                              batch_from(bands, kLanes, wild_floats(997, 2)),
-                              batch_from(bands, kLanes, wild_floats(997, 3))};
+      SampledSpectra in[3] = {batch_from(bands, kLanes, arbitrary_floats(997, 1)),
+                              batch_from(bands, kLanes, arbitrary_floats(997, 2)),
+                              batch_from(bands, kLanes, arbitrary_floats(997, 3))};
       auto want = *SampledSpectra::create(bands, kLanes);
       ASSERT_TRUE(op.run(in[0].view(), in[1].view(), in[2].view(), want.span(), {}));
       ASSERT_TRUE(op.run(in[0].view(), in[1].view(), in[2].view(), in[which].span(), {}));
@@ -104,9 +104,9 @@ TEST(Arithmetic, OutputMayBeAnyOfTheInputs) {
 TEST(Arithmetic, ThreadsAndTilesDoNotChangeBits) {
   const Bands bands = *Bands::uniform(400, 450, 10);
   constexpr std::size_t kLanes = 70001;
-  const auto a = batch_from(bands, kLanes, wild_floats(10007, 1));
-  const auto b = batch_from(bands, kLanes, wild_floats(10009, 2));
-  const auto c = batch_from(bands, kLanes, wild_floats(10037, 3));
+  const auto a = batch_from(bands, kLanes, arbitrary_floats(10007, 1));
+  const auto b = batch_from(bands, kLanes, arbitrary_floats(10009, 2));
+  const auto c = batch_from(bands, kLanes, arbitrary_floats(10037, 3));
   for (const Operation& op : operations()) {
     auto want = *SampledSpectra::create(bands, kLanes);
     ASSERT_TRUE(op.run(a.view(), b.view(), c.view(), want.span(), {1, kLanes}));

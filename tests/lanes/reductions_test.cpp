@@ -16,13 +16,13 @@ void expect_padding_zero(const LaneMask& mask, std::size_t lanes) {
   for (std::size_t lane = lanes; lane < 64 * mask.size(); ++lane) EXPECT_FALSE(bit(mask, lane)) << lane;
 }
 
-/// Samples of which half of the lanes are all zeros; `wild` elsewhere.
+/// Samples of which half of the lanes are all zeros; `arbitrary` elsewhere.
 SampledSpectra half_black(const Bands& bands, std::size_t lanes) {
-  const Floats wild = wild_floats(1009, 3);
+  const Floats arbitrary = arbitrary_floats(1009, 3);
   return batch_of(bands, lanes, [&](std::size_t lane, std::size_t band) {
     const std::size_t i = lane * bands.count() + band;
     if (lane % 2 == 0) return i % 3 == 0 ? -0.0F : 0.0F;
-    return lane % 3 == 0 && band != 1 ? 0.0F : wild[i % wild.size()];
+    return lane % 3 == 0 && band != 1 ? 0.0F : arbitrary[i % arbitrary.size()];
   });
 }
 
@@ -167,8 +167,8 @@ TEST(Lanes, AverageLetsNanAndInfinitiesThrough) {
 TEST(Lanes, ThreadsAndTilesDoNotChangeBits) {
   const Bands bands = *Bands::uniform(400, 450, 10);
   constexpr std::size_t kLanes = 70001;
-  const auto a = batch_from(bands, kLanes, wild_floats(10007, 1));
-  const auto b = batch_from(bands, kLanes, wild_floats(10007, 1));
+  const auto a = batch_from(bands, kLanes, arbitrary_floats(10007, 1));
+  const auto b = batch_from(bands, kLanes, arbitrary_floats(10007, 1));
   using Fold = Result<void> (*)(SampledSpectraView, LanesSpan, const Execution&);
   const Execution one{1, kLanes};
   for (const Execution& execution :

@@ -221,7 +221,7 @@ RC_GTEST_PROP(LightLaws, MoreInEveryBandIsNoDarker, ()) {
 RC_GTEST_PROP(LightLaws, SpectraThatAreNotNegativeHaveNoNegativeColour, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
-  Wild wild(drawn_random());
+  ArbitraryFloat wild(drawn_random());
   const auto spectra = drawn_spectra(bands, drawn_lanes(), [&] {
     const float v = std::abs(wild());
     return v <= kMost ? v : 0.0F;

@@ -48,9 +48,9 @@ class Steps {
 };
 
 /// Any floats: bits of any kind, special values, ordinary numbers.
-class Wild {
+class ArbitraryFloat {
  public:
-  explicit Wild(std::mt19937 random) : random_(random) {}
+  explicit ArbitraryFloat(std::mt19937 random) : random_(random) {}
   float operator()() {
     const std::uint32_t kind = random_() % 3;
     if (kind == 0) return special_values()[random_() % special_values().size()];

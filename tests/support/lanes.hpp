@@ -99,7 +99,7 @@ class Floats {
 };
 
 /// A third each of special values, of any bits at all, and of ordinary samples from 0 to 1.
-inline Floats wild_floats(std::size_t count, std::uint32_t seed) {
+inline Floats arbitrary_floats(std::size_t count, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
   const auto& special = special_values();

@@ -54,13 +54,13 @@ Reached reached(const KernelTable& t, const Upsampler& upsampler, const Floats& 
   Reached out{Floats(3 * n), Floats(n)};
   const float* const in[3] = {rgb.data(), rgb.data() + n, rgb.data() + 2 * n};
   float* const c[3] = {out.c.data(), out.c.data() + n, out.c.data() + 2 * n};
-  t.sigmoid_reach(c, out.part.data(), in, upsampler.sigmoid()->table, upsampler.luminance().data(), n);
+  t.sigmoid_continuation(c, out.part.data(), in, upsampler.sigmoid()->table, upsampler.luminance().data(), n);
   return out;
 }
 
-class SigmoidReach : public KernelTest {};
+class SigmoidContinuation : public KernelTest {};
 
-TEST_P(SigmoidReach, IsTheReferencesForEveryKindOfColour) {
+TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
   const float values[] = {0.0F,  kTiny, 1e-6F, 0.02F, 0.5F, 1.0F,  1.2F, -1e-3F,
                           -0.3F, kMost, kNan,  kInf,  0.9F, -kInf, 3.0F, 0.25F};
   constexpr std::size_t kCount = std::size(values);
@@ -84,7 +84,7 @@ TEST_P(SigmoidReach, IsTheReferencesForEveryKindOfColour) {
   }
 }
 
-TEST_P(SigmoidReach, BrightGreysHaveTheReferencesZeros) {
+TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
   const auto upsampler = sigmoid();
   Floats rgb(3 * 64);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<float>(i % 64) / 63;
@@ -102,23 +102,23 @@ TEST_P(SigmoidReach, BrightGreysHaveTheReferencesZeros) {
   EXPECT_TRUE(same_bits(solved, expected));
 }
 
-SPECTILE_FOR_EVERY_ISA(SigmoidReach);
+SPECTILE_FOR_EVERY_ISA(SigmoidContinuation);
 
-TEST(SigmoidReach, TheCubeIsReachedWithoutTheQuickSearch) {
+TEST(SigmoidContinuation, TheCubeIsReachedWithoutTheQuickSearch) {
   const auto upsampler = sigmoid();
   const auto grid = cube_grid(9);
   for (std::size_t i = 0; i < grid.lanes(); ++i) {
     const float rgb[3] = {grid.at(i, 0), grid.at(i, 1), grid.at(i, 2)};
     float c[3];
     const float part =
-        reference::sigmoid_reach(c, rgb, upsampler.sigmoid()->table, upsampler.luminance().data());
+        reference::sigmoid_continuation(c, rgb, upsampler.sigmoid()->table, upsampler.luminance().data());
     const bool end =
         (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) || (rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1);
     ASSERT_EQ(part, end ? 0.0F : 1.0F) << rgb[0] << " " << rgb[1] << " " << rgb[2];
   }
 }
 
-TEST(SigmoidReach, DarkPurplesOverWideRangesReturn) {
+TEST(SigmoidContinuation, DarkPurplesOverWideRangesReturn) {
   const auto rgb = lanes_of({{1.21500016e-5F, 0, 4.55625059e-6F},
                              {9.11250117e-6F, 0, 4.55625059e-6F},
                              {8.61131468e-8F, 0, 1.23018786e-8F}});
@@ -144,7 +144,7 @@ ColorLanes saturated_down_to(int levels) {
   return lanes_of(colours);
 }
 
-TEST(SigmoidReach, NoColourOfTheCubeIsMissedOverWideRanges) {
+TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
   for (const char* bands : {"380:780:5", "360:830:5"}) {
     const auto upsampler = sigmoid(bands);
     EXPECT_EQ(unsolved(upsampler, saturated_down_to(20)), 0U) << bands;
@@ -153,7 +153,7 @@ TEST(SigmoidReach, NoColourOfTheCubeIsMissedOverWideRanges) {
   }
 }
 
-TEST(SigmoidReach, WhatMissesIsReported) {
+TEST(SigmoidContinuation, WhatMissesIsReported) {
   // In the cubes of wide primaries.
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid("380:780:5", space);
@@ -170,7 +170,7 @@ TEST(SigmoidReach, WhatMissesIsReported) {
   }
 }
 
-TEST(SigmoidReach, ColoursOfSigmoidsAreSolved) {
+TEST(SigmoidContinuation, ColoursOfSigmoidsAreSolved) {
   // Those of c = (-4.68274, 5.64237, 3.48688); (-5.36523, 9.02882, 0.827151); (-5.21705, 8.56587, 0.0522521).
   EXPECT_EQ(unsolved(sigmoid("380:780:5", "acescg"), lanes_of({{0.948412836F, 1.00075197F, 0.165978804F}})),
             0U);
@@ -182,7 +182,7 @@ TEST(SigmoidReach, ColoursOfSigmoidsAreSolved) {
             0U);
 }
 
-TEST(SigmoidReach, ColoursOfRandomSigmoidsAreSolved) {
+TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
   // Of moderate coefficients: a colour's own, so it is inside by construction, wherever the cube is.
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 4);
@@ -207,7 +207,7 @@ TEST(SigmoidReach, ColoursOfRandomSigmoidsAreSolved) {
   }
 }
 
-TEST(SigmoidReach, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
+TEST(SigmoidContinuation, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid("380:780:5", space);
     const auto grid = cube_grid(17);
@@ -223,12 +223,12 @@ TEST(SigmoidReach, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
   }
 }
 
-TEST(SigmoidReach, FewBandsAreNoFurtherAwayThanGreyEither) {
+TEST(SigmoidContinuation, FewBandsAreNoFurtherAwayThanGreyEither) {
   const auto few = sigmoid("380.3,395.1,401,450.7,455,530,545,560,590,620,622,650,690");
   EXPECT_LE(round_trip(few, lanes_of({{0, 1, 1}})).rgb, 0.8);
 }
 
-TEST(SigmoidReach, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
+TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
     const auto upsampler = sigmoid("380:780:5", "rec2020", "D65", quantity);
     auto rgb = cube_grid(9);
@@ -240,7 +240,7 @@ TEST(SigmoidReach, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
   }
 }
 
-TEST(SigmoidReach, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
+TEST(SigmoidContinuation, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
   const auto upsampler = sigmoid("400:700:5", "acescg");
   const auto rgb = cube_grid(9);
   auto moved = cube_grid(9);
@@ -249,7 +249,7 @@ TEST(SigmoidReach, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
   for (std::size_t i = 0; i < rgb.lanes(); ++i) ASSERT_LE(largest_difference(back[i], moved, i), 2e-3) << i;
 }
 
-TEST(SigmoidReach, FiniteColoursOfUnboundedOnesStayFinite) {
+TEST(SigmoidContinuation, FiniteColoursOfUnboundedOnesStayFinite) {
   const auto upsampler = sigmoid("400:700:5", "srgb", "D65", Quantity::kUnbounded);
   const auto rgb = lanes_of({{2e38F, 1e38F, 1e38F}, {kMost, 0, 1e38F}, {kMost, kMost, kMost}});
   const auto spectra = spectra_of(upsampler, rgb);

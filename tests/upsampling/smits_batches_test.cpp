@@ -98,7 +98,7 @@ TEST(SmitsBatches, XyzGoesByWayOfLinearSrgb) {
   for (const NegativeSamples negative : {NegativeSamples::kClampToZero, NegativeSamples::kKeep}) {
     const auto upsampler = smits(negative);
     for (const std::size_t lanes : kSizes) {
-      const auto xyz = colours(lanes, wild_floats(10007, 6));
+      const auto xyz = colours(lanes, arbitrary_floats(10007, 6));
       auto rgb = *ColorLanes::create(lanes);
       ASSERT_TRUE(xyz_to_srgb(xyz.view(), rgb.span()));
       auto want = *SampledSpectra::create(Bands(), lanes);
@@ -135,7 +135,7 @@ TEST(SmitsBatches, ThreadsTilesAndStoresDoNotChangeBits) {
   for (const Method method : {Method::kSmits, Method::kSmits1999}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, bands);
-      const auto rgb = colours(kLanes, wild_floats(100003, 8));
+      const auto rgb = colours(kLanes, arbitrary_floats(100003, 8));
       auto want = *SampledSpectra::create(bands, kLanes);
       auto want_xyz = *SampledSpectra::create(bands, kLanes);
       ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), StoreHint::kCached, {1, kLanes}));

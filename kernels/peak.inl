@@ -6,7 +6,7 @@
 namespace spectile::kernels {
 namespace {
 
-void limit_load(std::uint32_t* dst, const float* src, std::size_t n) noexcept {
+void peak_load(std::uint32_t* dst, const float* src, std::size_t n) noexcept {
   constexpr std::size_t kVectors = kLanes / kWidth;
   U32 sums[kVectors];
   for (auto& s : sums) s = U32(0U);
@@ -18,9 +18,9 @@ void limit_load(std::uint32_t* dst, const float* src, std::size_t n) noexcept {
   for (std::size_t j = 0; j < kVectors; ++j) sums[j].store_unaligned(dst + j * kWidth);
 }
 
-void limit_store(float* dst, float value, std::size_t n, bool around) noexcept {
+void peak_store(float* dst, float value, std::size_t n, bool non_temporal) noexcept {
   const F32 v(value);
-  if (around) {
+  if (non_temporal) {
     for (std::size_t i = 0; i < n; i += kLanes) {
       for (std::size_t j = 0; j < kLanes; j += kWidth) stream(dst + i + j, v);
     }
@@ -32,7 +32,7 @@ void limit_store(float* dst, float value, std::size_t n, bool around) noexcept {
   }
 }
 
-void limit_copy(float* dst, const float* src, std::size_t n) noexcept {
+void peak_copy(float* dst, const float* src, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; i += kLanes) {
     F32 v[kLanes / kWidth];
     for (std::size_t j = 0; j < kLanes / kWidth; ++j) v[j] = load(src + i + j * kWidth);
@@ -45,7 +45,7 @@ void limit_copy(float* dst, const float* src, std::size_t n) noexcept {
 template <class F>
 inline void iterate(float* dst, const float* src, std::size_t steps, std::size_t n, F f) noexcept {
   constexpr std::size_t kChains = kWidth == 16 ? 24 : 12;  // of 32 registers, of 16
-  static_assert(kLimitChains % (kChains * kWidth) == 0);
+  static_assert(kPeakChains % (kChains * kWidth) == 0);
   for (std::size_t i = 0; i < n; i += kChains * kWidth) {
     F32 x[kChains];
 #pragma GCC unroll 24
@@ -60,20 +60,20 @@ inline void iterate(float* dst, const float* src, std::size_t steps, std::size_t
   }
 }
 
-void limit_multiply_add(float* dst, const float* src, float m, float a, std::size_t steps,
-                        std::size_t n) noexcept {
+void peak_multiply_add(float* dst, const float* src, float m, float a, std::size_t steps,
+                       std::size_t n) noexcept {
   const F32 factor(m);
   const F32 term(a);
   iterate(dst, src, steps, n, [=](F32 x) { return x * factor + term; });
 }
 
-void limit_fused(float* dst, const float* src, float m, float a, std::size_t steps, std::size_t n) noexcept {
+void peak_fused(float* dst, const float* src, float m, float a, std::size_t steps, std::size_t n) noexcept {
   const F32 factor(m);
   const F32 term(a);
   iterate(dst, src, steps, n, [=](F32 x) { return fused(x, factor, term); });
 }
 
-void limit_divide(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept {
+void peak_divide(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept {
   const F32 dividend(m);
   iterate(dst, src, steps, n, [=](F32 x) { return dividend / x; });
 }

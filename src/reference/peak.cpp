@@ -1,5 +1,5 @@
 // Scalar twins of the loops that find a machine's limits.
-#include "src/reference/limits.hpp"
+#include "src/reference/peak.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,21 +9,21 @@
 
 namespace spectile::reference {
 
-void limit_load(std::uint32_t* dst, const float* src, std::size_t n) noexcept {
+void peak_load(std::uint32_t* dst, const float* src, std::size_t n) noexcept {
   std::fill_n(dst, kernels::kLanes, 0U);
   for (std::size_t i = 0; i < n; ++i) dst[i % kernels::kLanes] ^= std::bit_cast<std::uint32_t>(src[i]);
 }
 
-void limit_store(float* dst, float value, std::size_t n, bool /*around*/) noexcept {
+void peak_store(float* dst, float value, std::size_t n, bool /*non_temporal*/) noexcept {
   std::fill_n(dst, n, value);
 }
 
-void limit_copy(float* dst, const float* src, std::size_t n) noexcept {
+void peak_copy(float* dst, const float* src, std::size_t n) noexcept {
   std::copy_n(src, n, dst);
 }
 
-void limit_multiply_add(float* dst, const float* src, float m, float a, std::size_t steps,
-                        std::size_t n) noexcept {
+void peak_multiply_add(float* dst, const float* src, float m, float a, std::size_t steps,
+                       std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     float x = src[i];
     for (std::size_t step = 0; step < steps; ++step) x = (x * m) + a;
@@ -31,7 +31,7 @@ void limit_multiply_add(float* dst, const float* src, float m, float a, std::siz
   }
 }
 
-void limit_fused(float* dst, const float* src, float m, float a, std::size_t steps, std::size_t n) noexcept {
+void peak_fused(float* dst, const float* src, float m, float a, std::size_t steps, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     float x = src[i];
     for (std::size_t step = 0; step < steps; ++step) x = std::fma(x, m, a);
@@ -39,7 +39,7 @@ void limit_fused(float* dst, const float* src, float m, float a, std::size_t ste
   }
 }
 
-void limit_divide(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept {
+void peak_divide(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     float x = src[i];
     for (std::size_t step = 0; step < steps; ++step) x = m / x;

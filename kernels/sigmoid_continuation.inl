@@ -11,7 +11,7 @@ struct Way {
   F32 grey;
   F32 way[3];
   F32 near, met, steep;
-  F32 shortest, damped, tries;  // see ReachEffort
+  F32 shortest, damped, tries;  // see ContinuationEffort
 };
 
 inline void goal_at(const Way& line, F32 part, F32 goal[3]) noexcept {
@@ -29,12 +29,12 @@ inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Ma
   Coefficients step = {{zero, zero, zero}};
   F32 length = one;
   F32 part = zero;
-  F32 ahead(kReachFirst);
-  F32 next(kReachFirst);
+  F32 ahead(kContinuationFirst);
+  F32 next(kContinuationFirst);
   F32 before = infinity;  // residual of the base, for the same place
   F32 best = infinity;    // residual at the line's end
   F32 tries = zero;
-  for (int i = 0; i < kReachSteps && lane_bits(active) != 0; ++i) {
+  for (int i = 0; i < kContinuationSteps && lane_bits(active) != 0; ++i) {
     Coefficients trial;
     for (std::size_t k = 0; k < 3; ++k) trial.c[k] = base.c[k] + length * step.c[k];
     const SigmoidSums sums = sums_of(trial, table);
@@ -48,7 +48,7 @@ inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Ma
     for (std::size_t k = 0; k < 3; ++k) c.c[k] = xsimd::select(keep, trial.c[k], c.c[k]);
     part = xsimd::select(keep, next, part);
     best = xsimd::select(keep, xsimd::select(end, left.size, infinity), best);
-    const Mask gains = usable & (left.size < F32(kReachGain) * before);
+    const Mask gains = usable & (left.size < F32(kContinuationGain) * before);
     active = active & ~((part == one) & ((left.size <= F32(kSigmoidFloor)) | ~gains));
     const Mask onward = there & ~end;
     const Mask better = usable & (left.size < before);
@@ -76,8 +76,8 @@ inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Ma
   return part;
 }
 
-void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3], const SigmoidTable& table,
-                   const float luminance[3], std::size_t n) noexcept {
+void sigmoid_continuation(float* const c[3], float* reached, const float* const rgb[3],
+                          const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
   const F32 zero(0.0F);
   const F32 half(0.5F);
   const F32 one(1.0F);
@@ -89,13 +89,13 @@ void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3],
     // The reflectance of 1 - colour is 1 - reflectance.
     const Mask bright = y > half;
     const F32 level = xsimd::select(bright, one - y, y);
-    const Mask lit = finite & (level >= F32(kReachBlack));
+    const Mask lit = finite & (level >= F32(kContinuationBlack));
     Way line;
     line.grey = xsimd::select(lit, level, half);
     for (std::size_t k = 0; k < 3; ++k) {
       line.way[k] = xsimd::select(bright, one - v[k], v[k]) - line.grey;
     }
-    line.near = xsimd::max(F32(kSigmoidRounding), line.grey * F32(kReachNear));
+    line.near = xsimd::max(F32(kSigmoidRounding), line.grey * F32(kContinuationNear));
     line.met =
         xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), line.grey * F32(kSigmoidMet)));
     Mask inside = finite;
@@ -103,9 +103,9 @@ void sigmoid_reach(float* const c[3], float* reached, const float* const rgb[3],
     const auto effort = [inside](float patient, float brief) {
       return xsimd::select(inside, F32(patient), F32(brief));
     };
-    line.shortest = effort(kReachInside.shortest, kReachOutside.shortest);
-    line.damped = effort(kReachInside.damped, kReachOutside.damped);
-    line.tries = effort(kReachInside.tries, kReachOutside.tries);
+    line.shortest = effort(kContinuationInside.shortest, kContinuationOutside.shortest);
+    line.damped = effort(kContinuationInside.damped, kContinuationOutside.damped);
+    line.tries = effort(kContinuationInside.tries, kContinuationOutside.tries);
     line.steep = F32(kSigmoidSteep) / xsimd::sqrt(line.grey);
     Coefficients a = {{zero, zero, (line.grey - half) / xsimd::sqrt(line.grey * (one - line.grey))}};
     const F32 part = reach(a, line, table, lit);

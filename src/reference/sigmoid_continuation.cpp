@@ -8,8 +8,8 @@ namespace spectile::reference {
 
 using namespace kernels;
 
-float sigmoid_reach(float c[3], const float rgb[3], const SigmoidTable& table,
-                    const float luminance[3]) noexcept {
+float sigmoid_continuation(float c[3], const float rgb[3], const SigmoidTable& table,
+                           const float luminance[3]) noexcept {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   bool finite = true;
   bool inside = true;
@@ -17,7 +17,7 @@ float sigmoid_reach(float c[3], const float rgb[3], const SigmoidTable& table,
     finite = finite && rgb[k] - rgb[k] == 0.0F;
     inside = inside && rgb[k] >= 0.0F && rgb[k] <= 1.0F;
   }
-  const ReachEffort& effort = inside ? kReachInside : kReachOutside;
+  const ContinuationEffort& effort = inside ? kContinuationInside : kContinuationOutside;
   if (!finite) {
     for (std::size_t k = 0; k < 3; ++k) c[k] = std::numeric_limits<float>::quiet_NaN();
     return 1;
@@ -26,7 +26,7 @@ float sigmoid_reach(float c[3], const float rgb[3], const SigmoidTable& table,
   // The reflectance of 1 - colour is 1 - reflectance.
   const bool bright = y > 0.5F;
   const float grey = bright ? 1.0F - y : y;
-  if (!(grey >= kReachBlack)) {
+  if (!(grey >= kContinuationBlack)) {
     c[0] = c[1] = bright ? -0.0F : 0.0F;
     c[2] = bright ? kSigmoidFar : -kSigmoidFar;
     return 0;
@@ -35,19 +35,19 @@ float sigmoid_reach(float c[3], const float rgb[3], const SigmoidTable& table,
   float way[3];
   for (std::size_t k = 0; k < 3; ++k) way[k] = (bright ? 1.0F - rgb[k] : rgb[k]) - grey;
   c[2] = (grey - 0.5F) / std::sqrt(grey * (1.0F - grey));
-  const float near = std::max(kSigmoidRounding, grey * kReachNear);
+  const float near = std::max(kSigmoidRounding, grey * kContinuationNear);
   const float met = std::max(kSigmoidRounding, std::min(kSigmoidUnsolved, grey * kSigmoidMet));
   const float steep = kSigmoidSteep / std::sqrt(grey);
   float base[3] = {c[0], c[1], c[2]};
   float step[3] = {0, 0, 0};
   float length = 1;
   float part = 0;
-  float ahead = kReachFirst;
-  float next = kReachFirst;
+  float ahead = kContinuationFirst;
+  float next = kContinuationFirst;
   float before = kInfinity;  // residual of the base, for the same place
   float best = kInfinity;    // residual at the line's end
   float tries = 0;
-  for (int i = 0; i < kReachSteps; ++i) {
+  for (int i = 0; i < kContinuationSteps; ++i) {
     float trial[3];
     for (std::size_t k = 0; k < 3; ++k) trial[k] = base[k] + length * step[k];
     const Sums sums = sums_of(trial, table);
@@ -63,7 +63,7 @@ float sigmoid_reach(float c[3], const float rgb[3], const SigmoidTable& table,
       part = next;
       best = end ? size : kInfinity;
     }
-    if (part == 1.0F && (size <= kSigmoidFloor || !(usable && size < kReachGain * before))) break;
+    if (part == 1.0F && (size <= kSigmoidFloor || !(usable && size < kContinuationGain * before))) break;
     const bool onward = there && !end;
     const bool better = usable && size < before;
     tries = tries + 1.0F;

@@ -4,9 +4,9 @@
 namespace spectile::test {
 namespace {
 
-class LimitKernels : public KernelTest {
+class PeakKernels : public KernelTest {
  protected:
-  static constexpr std::size_t kCount = 2 * kernels::kLimitChains;
+  static constexpr std::size_t kCount = 2 * kernels::kPeakChains;
   void SetUp() override {
     KernelTest::SetUp();
     src_ = *FloatBuffer::create(kCount);
@@ -24,44 +24,44 @@ class LimitKernels : public KernelTest {
   FloatBuffer src_, mine_, theirs_;
 };
 
-TEST_P(LimitKernels, LoadsSeeEveryNumber) {
+TEST_P(PeakKernels, LoadsSeeEveryNumber) {
   std::uint32_t mine[kernels::kLanes];
   std::uint32_t theirs[kernels::kLanes];
   for (const std::size_t changed : {std::size_t{0}, std::size_t{63}, kCount - 1}) {
     src_.data()[changed] += 1;
-    k().limit_load(mine, src_.data(), kCount);
-    ref().limit_load(theirs, src_.data(), kCount);
+    k().peak_load(mine, src_.data(), kCount);
+    ref().peak_load(theirs, src_.data(), kCount);
     for (std::size_t i = 0; i < kernels::kLanes; ++i) ASSERT_EQ(mine[i], theirs[i]) << changed << " " << i;
   }
 }
 
-TEST_P(LimitKernels, StoresAndCopiesReachEveryNumber) {
-  for (const bool around : {false, true}) {
+TEST_P(PeakKernels, StoresAndCopiesReachEveryNumber) {
+  for (const bool non_temporal : {false, true}) {
     std::fill_n(mine_.data(), kCount, -1.0F);
-    k().limit_store(mine_.data(), 2.5F, kCount, around);
-    ref().limit_store(theirs_.data(), 2.5F, kCount, around);
+    k().peak_store(mine_.data(), 2.5F, kCount, non_temporal);
+    ref().peak_store(theirs_.data(), 2.5F, kCount, non_temporal);
     expect_same();
   }
-  k().limit_copy(mine_.data(), src_.data(), kCount);
-  ref().limit_copy(theirs_.data(), src_.data(), kCount);
+  k().peak_copy(mine_.data(), src_.data(), kCount);
+  ref().peak_copy(theirs_.data(), src_.data(), kCount);
   expect_same();
 }
 
-TEST_P(LimitKernels, ChainsTakeEveryStep) {
+TEST_P(PeakKernels, ChainsTakeEveryStep) {
   for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, std::size_t{17}}) {
-    k().limit_multiply_add(mine_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
-    ref().limit_multiply_add(theirs_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
+    k().peak_multiply_add(mine_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
+    ref().peak_multiply_add(theirs_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
     expect_same();
-    k().limit_fused(mine_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
-    ref().limit_fused(theirs_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
+    k().peak_fused(mine_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
+    ref().peak_fused(theirs_.data(), src_.data(), 0.999F, 1e-3F, steps, kCount);
     expect_same();
-    k().limit_divide(mine_.data(), src_.data(), 1.7F, steps, kCount);
-    ref().limit_divide(theirs_.data(), src_.data(), 1.7F, steps, kCount);
+    k().peak_divide(mine_.data(), src_.data(), 1.7F, steps, kCount);
+    ref().peak_divide(theirs_.data(), src_.data(), 1.7F, steps, kCount);
     expect_same();
   }
 }
 
-SPECTILE_FOR_EVERY_ISA(LimitKernels);
+SPECTILE_FOR_EVERY_ISA(PeakKernels);
 
 }  // namespace
 }  // namespace spectile::test
