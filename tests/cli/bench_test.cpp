@@ -47,7 +47,7 @@ TEST(Bench, HelpNamesEveryOptionAndTheExitCode) {
   EXPECT_THAT(run_tool({"--help"}).out, HasSubstr("\n  bench "));
 }
 
-TEST(Bench, SlowJsonHoldsLimitsAndTheOperationsAskedForAndThePageIsWhole) {
+TEST(Bench, JsonHoldsLimitsAndTheOperationsAskedForAndThePageIsWhole) {
   if (!runs_here("avx2")) GTEST_SKIP() << "avx2 does not run here";
   const test::TempFolder folder;
   const std::string page = folder / "out.html";
@@ -122,7 +122,7 @@ TEST(Bench, StressOfSomeOperationsIsOfThemAlone) {
   EXPECT_THAT(outcome.out, Not(HasSubstr("film: any sample")));
 }
 
-TEST(Bench, SlowTheSameSeedStressesTheSameNumbers) {
+TEST(Bench, TheSameSeedStressesTheSameNumbers) {
   const auto numbers = [](const char* seed) {
     const auto outcome = run_tool({"bench", "--stress-only", "--quick", "--json", "--seed", seed});
     EXPECT_EQ(outcome.exit, 0) << outcome;

@@ -120,14 +120,14 @@ TEST(FilmAccuracy, AMillionSamplesOverNineDecades) {
   EXPECT_LT(e.film, 1e-7);
 }
 
-TEST(FilmAccuracy, SlowABillionSamplesOfNoiseInOnePixel) {
+TEST(FilmAccuracy, ABillionSamplesOfNoiseInOnePixel) {
   const Errors e = noise(1000000000);
   report("10^9 samples of 1 + 1e-4 noise in one pixel", e);
   EXPECT_LT(e.film, 1e-7);
   EXPECT_GT(e.floats, 0.9);
 }
 
-TEST(FilmAccuracy, SlowAHundredMillionSamplesOverNineDecades) {
+TEST(FilmAccuracy, AHundredMillionSamplesOverNineDecades) {
   const Errors e = decades(100000000);
   report("10^8 samples over nine decades in 256 pixels", e);
   EXPECT_LT(e.film, 1e-7);

@@ -119,7 +119,7 @@ TEST(FilmScenes, ConvergeToTheirTruth) {
   }
 }
 
-TEST(FilmScenes, SlowAllOfThemConvergeToTheirTruth) {
+TEST(FilmScenes, AllOfThemConvergeToTheirTruth) {
   for (const Way& way : kWays) {
     for (const auto input : {FilmInput::kWavelengths, FilmInput::kBands}) {
       for (const std::string& name : ProceduralScene::names()) {

@@ -49,7 +49,7 @@ TEST(ExactMethods, TheCubesColoursReturn) {
   for_many([](const Upsampler& upsampler) { expect_exact(upsampler, cube_grid(17)); });
 }
 
-TEST(ExactMethods, SlowTheCubesColoursReturnOnAFineGrid) {
+TEST(ExactMethods, TheCubesColoursReturnOnAFineGrid) {
   for (const Method method : kMethods) {
     const auto upsampler = *Upsampler::create(method, Quantity::kReflectance, Bands());
     expect_exact(upsampler, cube_grid(65));

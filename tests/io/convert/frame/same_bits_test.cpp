@@ -127,7 +127,7 @@ TEST_F(SameBits, SixtyBandsOfTwoRealImages) {
   }
 }
 
-TEST_F(SameBits, SlowEveryRealImageEveryWay) {
+TEST_F(SameBits, EveryRealImageEveryWay) {
   SPECTILE_NEEDS_IMAGES("rgb");
   check_all(all_ways());
 }
