@@ -77,7 +77,7 @@ TEST(Frontier, HoldsWhatNothingBeats) {
   EXPECT_NE(advice.front().sentence.find("below 2: fast"), std::string::npos) << advice.front().sentence;
 }
 
-TEST(Truth, WhiteIsTheLightsAndLampsHaveLines) {
+TEST(ReferenceColors, WhiteIsTheLightsAndLampsHaveLines) {
   for (const auto& [name, spiky] :
        {std::pair{"D65", false}, {"A", false}, {"E", false}, {"FL2", true}, {"FL11", true}, {"HP1", true}}) {
     const auto light = *measure::true_light(name);
@@ -98,7 +98,7 @@ TEST(Truth, WhiteIsTheLightsAndLampsHaveLines) {
   EXPECT_NEAR(d65.white[2], 1.08883, 5e-5);
 }
 
-TEST(Truth, ErrorsAreSummedUpByMeanMaximumAndWhatNinetyFiveOfAHundredDoNotExceed) {
+TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndWhatNinetyFiveOfAHundredDoNotExceed) {
   const measure::Xyz white = {1, 1, 1};
   measure::ErrorList list(white);
   std::vector<double> all;
@@ -113,7 +113,7 @@ TEST(Truth, ErrorsAreSummedUpByMeanMaximumAndWhatNinetyFiveOfAHundredDoNotExceed
   EXPECT_DOUBLE_EQ(e.percentile95, all[94]);
 }
 
-TEST(Judge, AllowsTheBoundAndNotMore) {
+TEST(Evaluation, AllowsTheBoundAndNotMore) {
   const auto judge = judged_by(
       1, [](const double* in, double* truth, double* scale) { truth[0] = scale[0] = in[0]; }, 1, false, 2);
   const double in = 1;
@@ -125,7 +125,7 @@ TEST(Judge, AllowsTheBoundAndNotMore) {
   EXPECT_TRUE(std::isinf(error(std::numeric_limits<double>::infinity())));
 }
 
-TEST(Judge, KnowsOverflowAndWhatIsNotFinite) {
+TEST(Evaluation, KnowsOverflowAndWhatIsNotFinite) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto value = [](const double* in, double* truth, double* scale) {

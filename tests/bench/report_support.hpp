@@ -214,4 +214,23 @@ inline BenchmarkReport made_up_report() {
   return MadeUpReport().make();
 }
 
+/// A report of one entry of everything, each with this number where there is one and this text.
+inline BenchmarkReport filled_with(double x, const std::string& text) {
+  BenchmarkReport r;
+  r.machine.processor = text;
+  r.machine.isas = {text};
+  r.seconds = x;
+  r.disturbed = {text};
+  r.limits = {{text, 1, MemoryLevel::kCache, x, x, x, x, x, x, x}};
+  r.operations = {{text, text, text, 1, MemoryLevel::kMemory, text, x, x, x, text, x, x, x, text, text}};
+  r.scaling = {{text, MemoryLevel::kCache, 2, x, x}};
+  r.ways = {{text, text, true, text, text, 3, x, x, 12, {x, x, x}, true},
+            {text, text, true, "textbook", text, 3, 5.0, x, 12, {0.5, x, x}, false}};
+  r.representations = {{text, false, text, 3, 1, x, x, {x, x, x}},
+                       {text, false, text, 3, 2, 5.0, x, {0.5, x, x}}};
+  r.stress = {{text, text, text, x, x, 10, 0, text}};
+  r.advice = {{text, text, text}, {text, "", text}};
+  return r;
+}
+
 }  // namespace spectile::test

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DamagedFiles : public testing::Test {
+class InputErrors : public testing::Test {
  protected:
   /// Runs a command on a file with 4 GiB of address space.
   void check(const std::vector<std::string>& arguments, bool writes) {
@@ -48,7 +48,7 @@ class DamagedFiles : public testing::Test {
   int bad_ = 0;
 };
 
-TEST_F(DamagedFiles, OfOpenExrsOwnCollectionNeverCrash) {
+TEST_F(InputErrors, OfOpenExrsOwnCollectionNeverCrash) {
   SPECTILE_NEEDS_IMAGES("damaged");
   const auto files = test::shared_files("damaged");
   ASSERT_FALSE(files.empty());
@@ -58,7 +58,7 @@ TEST_F(DamagedFiles, OfOpenExrsOwnCollectionNeverCrash) {
   EXPECT_GT(bad_, good_);
 }
 
-TEST_F(DamagedFiles, WithASingleWrongByteNeverCrash) {
+TEST_F(InputErrors, WithASingleWrongByteNeverCrash) {
   const test::TempFolder inputs;
   test::Picture picture = test::blank(70, 40);
   picture.header.compression() = Imf::PIZ_COMPRESSION;
@@ -77,7 +77,7 @@ TEST_F(DamagedFiles, WithASingleWrongByteNeverCrash) {
   }
 }
 
-TEST_F(DamagedFiles, ClaimingHugeSizesTakeNoMemory) {
+TEST_F(InputErrors, ClaimingHugeSizesTakeNoMemory) {
   const test::TempFolder inputs;
   test::Picture picture = test::blank(8, 8);
   test::add_rgb_noise(picture, Imf::HALF);

@@ -33,9 +33,9 @@ bool refuse_nameless_files() {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-class KilledRun : public testing::Test {
+class Interruption : public testing::Test {
  protected:
-  KilledRun() {
+  Interruption() {
     fs::create_directory(folder_ / "target");
     // Takes some seconds with the slowest compression.
     test::Picture picture = test::blank(2048, 768);
@@ -76,7 +76,7 @@ class KilledRun : public testing::Test {
 
 constexpr int kMoments[] = {0, 20, 150, 500};
 
-TEST_F(KilledRun, LeavesNothing) {
+TEST_F(Interruption, LeavesNothing) {
   for (const int moment : kMoments) {
     test::Tool tool(arguments(), {});
     const auto outcome = stop_after(tool, moment, SIGKILL);
@@ -85,7 +85,7 @@ TEST_F(KilledRun, LeavesNothing) {
   }
 }
 
-TEST_F(KilledRun, LeavesNothingFinishedWhereFilesMustHaveNames) {
+TEST_F(Interruption, LeavesNothingFinishedWhereFilesMustHaveNames) {
   for (const int moment : kMoments) {
     test::Tool tool(arguments(), {.before = refuse_nameless_files});
     const auto outcome = stop_after(tool, moment, SIGKILL);
@@ -95,7 +95,7 @@ TEST_F(KilledRun, LeavesNothingFinishedWhereFilesMustHaveNames) {
   }
 }
 
-TEST_F(KilledRun, LeavesTheOldTarget) {
+TEST_F(Interruption, LeavesTheOldTarget) {
   test::write_text(folder_ / "target/out.exr", "precious");
   for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
     test::Tool tool(arguments(), {});
@@ -105,7 +105,7 @@ TEST_F(KilledRun, LeavesTheOldTarget) {
   }
 }
 
-TEST_F(KilledRun, InterruptEndsWithOneLineAndItsOwnCode) {
+TEST_F(Interruption, InterruptEndsWithOneLineAndItsOwnCode) {
   for (const int signal : {SIGINT, SIGTERM}) {
     for (const int moment : kMoments) {
       test::Tool tool(arguments(), {});
@@ -118,7 +118,7 @@ TEST_F(KilledRun, InterruptEndsWithOneLineAndItsOwnCode) {
   }
 }
 
-TEST_F(KilledRun, InterruptTidiesUpWhereFilesMustHaveNames) {
+TEST_F(Interruption, InterruptTidiesUpWhereFilesMustHaveNames) {
   for (const int moment : kMoments) {
     test::Tool tool(arguments(), {.before = refuse_nameless_files});
     const auto outcome = stop_after(tool, moment, SIGINT);
@@ -128,7 +128,7 @@ TEST_F(KilledRun, InterruptTidiesUpWhereFilesMustHaveNames) {
   }
 }
 
-TEST_F(KilledRun, FinishedRunIsTheSameWhereFilesMustHaveNames) {
+TEST_F(Interruption, FinishedRunIsTheSameWhereFilesMustHaveNames) {
   test::Picture picture = test::blank(70, 20);
   test::add_rgb_noise(picture, Imf::HALF);
   test::write_scanlines(folder_ / "small.exr", picture);
@@ -144,7 +144,7 @@ TEST_F(KilledRun, FinishedRunIsTheSameWhereFilesMustHaveNames) {
             test::file_bytes(folder_ / "target/nameless.exr"));
 }
 
-TEST_F(KilledRun, InterruptEndsAWholeBatch) {
+TEST_F(Interruption, InterruptEndsAWholeBatch) {
   fs::copy_file(folder_ / "in.exr", folder_ / "second.exr");
   test::Tool tool({"upsample", folder_ / "in.exr", folder_ / "second.exr", "-o", folder_ / "target",
                    "--compression", "zip:9"},
@@ -154,7 +154,7 @@ TEST_F(KilledRun, InterruptEndsAWholeBatch) {
   EXPECT_THAT(left(), testing::IsEmpty());
 }
 
-TEST_F(KilledRun, InterruptEndsTheDemo) {
+TEST_F(Interruption, InterruptEndsTheDemo) {
   test::Tool tool({"demo", folder_ / "demo"}, {});
   ASSERT_TRUE(tool.wait_until_converting());
   ::kill(tool.pid(), SIGINT);

@@ -1,4 +1,4 @@
-// Targets that cannot be written: no permission, no space, no plain file.
+// Outputs that cannot be written: no permission, no space, no plain file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -14,9 +14,9 @@ namespace {
 using test::run_tool;
 namespace fs = std::filesystem;
 
-class Targets : public testing::Test {
+class OutputErrors : public testing::Test {
  protected:
-  Targets() {
+  OutputErrors() {
     // 64 lines of 300 pixels and 60 half bands: 2.4 MB without compression.
     test::Picture picture = test::blank(300, 64);
     test::add_rgb_noise(picture, Imf::HALF);
@@ -69,7 +69,7 @@ bool become_nobody() {
   return ::geteuid() != 0 || (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0);
 }
 
-TEST_F(Targets, FullDiskIsNoSpaceAndLeavesNothing) {
+TEST_F(OutputErrors, FullDiskIsNoSpaceAndLeavesNothing) {
   // The disk fills in the header, after a few lines, and near the end.
   for (const char* size : {"size=4k", "size=64k", "size=1m", "size=2m"}) {
     const Mount disk(folder_ / "disk", size);
@@ -79,7 +79,7 @@ TEST_F(Targets, FullDiskIsNoSpaceAndLeavesNothing) {
   }
 }
 
-TEST_F(Targets, FullDiskLeavesTheOldTarget) {
+TEST_F(OutputErrors, FullDiskLeavesTheOldTarget) {
   const Mount disk(folder_ / "disk", "size=1m");
   if (!disk.made()) GTEST_SKIP() << "may not mount a small disk here";
   test::write_text(folder_ / "disk/out.exr", "precious");
@@ -88,7 +88,7 @@ TEST_F(Targets, FullDiskLeavesTheOldTarget) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "disk"), fs::directory_iterator()), 1);
 }
 
-TEST_F(Targets, FullDiskStopsEveryFileOfSeveralWithItsOwnLine) {
+TEST_F(OutputErrors, FullDiskStopsEveryFileOfSeveralWithItsOwnLine) {
   const Mount disk(folder_ / "disk", "size=64k");
   if (!disk.made()) GTEST_SKIP() << "may not mount a small disk here";
   fs::copy_file(good_, folder_ / "other.exr");
@@ -98,14 +98,14 @@ TEST_F(Targets, FullDiskStopsEveryFileOfSeveralWithItsOwnLine) {
   EXPECT_TRUE(fs::is_empty(folder_ / "disk"));
 }
 
-TEST_F(Targets, ReadOnlyDiskIsNoPermission) {
+TEST_F(OutputErrors, ReadOnlyDiskIsNoPermission) {
   Mount disk(folder_ / "disk", "size=8m");
   if (!disk.made() || !disk.make_read_only()) GTEST_SKIP() << "may not mount a small disk here";
   expect_failure(folder_ / "disk/out.exr", 3);
   expect_failure(folder_ / "disk/new/", 3);
 }
 
-TEST_F(Targets, SizeLimitOfTheShellIsNoSpace) {
+TEST_F(OutputErrors, SizeLimitOfTheShellIsNoSpace) {
   expect_failure(folder_ / "out.exr", 3, {.before = [] {
                    const rlimit limit = {1 << 20, 1 << 20};
                    return ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
@@ -113,7 +113,7 @@ TEST_F(Targets, SizeLimitOfTheShellIsNoSpace) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"good.exr"});
 }
 
-TEST_F(Targets, ForbiddenFolderOrFileIsNoPermission) {
+TEST_F(OutputErrors, ForbiddenFolderOrFileIsNoPermission) {
   fs::create_directory(folder_ / "closed");
   fs::create_directory(folder_ / "open");
   test::write_text(folder_ / "open/old.exr", "precious");
@@ -139,15 +139,15 @@ TEST_F(Targets, ForbiddenFolderOrFileIsNoPermission) {
   EXPECT_TRUE(hidden.one_line()) << hidden;
 }
 
-TEST_F(Targets, MissingFolderIsBadInput) {
+TEST_F(OutputErrors, MissingFolderIsBadInput) {
   expect_failure(folder_ / "missing/out.exr", 1);
 }
 
-TEST_F(Targets, PathBelowAFileIsBadInput) {
+TEST_F(OutputErrors, PathBelowAFileIsBadInput) {
   expect_failure(folder_ / "good.exr/out.exr", 1);
 }
 
-TEST_F(Targets, FolderThatCannotBeMadeIsWrongUsage) {
+TEST_F(OutputErrors, FolderThatCannotBeMadeIsWrongUsage) {
   expect_failure(folder_ / "good.exr/", 2);
   fs::copy_file(good_, folder_ / "other.exr");
   const auto outcome = run_tool({"upsample", good_, folder_ / "other.exr", "-o", good_});
@@ -155,20 +155,20 @@ TEST_F(Targets, FolderThatCannotBeMadeIsWrongUsage) {
   EXPECT_TRUE(outcome.one_line()) << outcome;
 }
 
-TEST_F(Targets, ProcIsAClearError) {
+TEST_F(OutputErrors, ProcIsAClearError) {
   const auto outcome = upsample("/proc/out.exr");
   EXPECT_TRUE(outcome.exit == 1 || outcome.exit == 3) << outcome;
   EXPECT_TRUE(outcome.one_line()) << outcome;
 }
 
-TEST_F(Targets, DeviceIsAClearErrorAndStaysADevice) {
+TEST_F(OutputErrors, DeviceIsAClearErrorAndStaysADevice) {
   for (const char* device : {"/dev/full", "/dev/null"}) {
     expect_failure(device, 1);
     EXPECT_TRUE(fs::is_character_file(device));
   }
 }
 
-TEST_F(Targets, PipeIsAClearErrorAndStaysAPipe) {
+TEST_F(OutputErrors, PipeIsAClearErrorAndStaysAPipe) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0666), 0);
   const auto outcome =
       test::Tool({"upsample", good_, "-o", folder_ / "pipe"}, {}).finish(std::chrono::seconds(10));
@@ -178,7 +178,7 @@ TEST_F(Targets, PipeIsAClearErrorAndStaysAPipe) {
   EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
 }
 
-TEST_F(Targets, FullStandardOutputIsNoSpace) {
+TEST_F(OutputErrors, FullStandardOutputIsNoSpace) {
   for (const auto& arguments : {std::vector<std::string>{"info", good_}, {"verify", good_, "--json"}}) {
     const auto outcome = run_tool(arguments, {.stdout_path = "/dev/full"});
     EXPECT_EQ(outcome.exit, 3) << outcome;

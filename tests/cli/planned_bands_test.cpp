@@ -13,7 +13,7 @@ namespace {
 using test::run_tool;
 using testing::HasSubstr;
 
-class Planned : public testing::Test {
+class PlannedBandsTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto made = run_tool({"plan", "--illuminant", "D65", "--illuminant", "FL11", "--bands", "7",
@@ -31,7 +31,7 @@ class Planned : public testing::Test {
   const std::string out_ = folder_ / "out.exr";
 };
 
-TEST_F(Planned, ImagesComeBackWithoutTheirPlansFile) {
+TEST_F(PlannedBandsTool, ImagesComeBackWithoutTheirPlansFile) {
   const auto up = run_tool({"upsample", in_, "-o", spectral_, "--bands", plan_, "--pixel", "float"});
   ASSERT_EQ(up.exit, 0) << up;
   EXPECT_THAT(up.out, HasSubstr("7 bands"));
@@ -50,7 +50,7 @@ TEST_F(Planned, ImagesComeBackWithoutTheirPlansFile) {
   EXPECT_THAT(info.out, HasSubstr("spectilePlan: {\"wavelengths_nm\":["));
 }
 
-TEST_F(Planned, LightsOfThePlanCanBeSeenUnderOthersNot) {
+TEST_F(PlannedBandsTool, LightsOfThePlanCanBeSeenUnderOthersNot) {
   ASSERT_EQ(run_tool({"upsample", in_, "-o", spectral_, "--bands", plan_}).exit, 0);
   const auto fl11 = run_tool({"project", spectral_, "-o", out_, "--illuminant", "FL11"});
   EXPECT_EQ(fl11.exit, 0) << fl11;
@@ -65,7 +65,7 @@ TEST_F(Planned, LightsOfThePlanCanBeSeenUnderOthersNot) {
   EXPECT_TRUE(white.one_line()) << white;
 }
 
-TEST_F(Planned, ANewPlanMakesOldOutputsOutOfDate) {
+TEST_F(PlannedBandsTool, ANewPlanMakesOldOutputsOutOfDate) {
   const std::vector<std::string> command = {"upsample", in_, "-o", spectral_, "--bands", plan_, "--update"};
   ASSERT_EQ(run_tool(command).exit, 0);
   EXPECT_THAT(run_tool(command).out, HasSubstr("up to date"));
@@ -77,14 +77,14 @@ TEST_F(Planned, ANewPlanMakesOldOutputsOutOfDate) {
   EXPECT_THAT(again.out, HasSubstr("7 bands"));
 }
 
-TEST_F(Planned, CoefficientsExpandAndFilmsTakeThem) {
+TEST_F(PlannedBandsTool, CoefficientsExpandAndFilmsTakeThem) {
   ASSERT_EQ(run_tool({"upsample", in_, "-o", spectral_, "--store", "coefficients"}).exit, 0);
   const auto expanded = run_tool({"expand", spectral_, "-o", out_, "--bands", plan_});
   EXPECT_EQ(expanded.exit, 0) << expanded;
   EXPECT_THAT(expanded.out, HasSubstr("7 bands"));
 }
 
-TEST_F(Planned, WhatIsNoPlanIsOneLine) {
+TEST_F(PlannedBandsTool, WhatIsNoPlanIsOneLine) {
   test::write_text(folder_ / "bad.json", "{\"wavelengths_nm\": [500]}");
   for (const std::string& bands : {folder_ / "bad.json", folder_ / "missing.json", in_}) {
     const auto outcome = run_tool({"upsample", in_, "-o", out_, "--bands", bands});

@@ -38,7 +38,7 @@ double projection_bound(const Bands& bands) {
 // most two sums, four roundings. The table's own are the same for both colours.
 constexpr double kMixture = 4 * kU * kHigherOrders;
 
-RC_GTEST_PROP(ColorLaws, MixturesAreHomogeneousWithinTheirRoundings, ()) {
+RC_GTEST_PROP(ColorLinearity, MixturesAreHomogeneousWithinTheirRoundings, ()) {
   const auto& upsampler = upsampler_for(drawn_mixture(), drawn_quantity(), drawn_bands(), drawn_negative());
   // Products without rounding: 14 bits by 8.
   const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), -1, 3, 12));
@@ -56,7 +56,7 @@ RC_GTEST_PROP(ColorLaws, MixturesAreHomogeneousWithinTheirRoundings, ()) {
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(ColorLaws, UnboundedSigmoidsAreExactlyHomogeneousForPowersOfTwo, ()) {
+RC_GTEST_PROP(ColorLinearity, UnboundedSigmoidsAreExactlyHomogeneousForPowersOfTwo, ()) {
   const Quantity quantity = *rc::gen::element(Quantity::kUnbounded, Quantity::kIlluminant);
   const auto& upsampler = upsampler_for(Method::kSigmoid, quantity, drawn_bands());
   const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), 0, 2, 20));
@@ -68,7 +68,7 @@ RC_GTEST_PROP(ColorLaws, UnboundedSigmoidsAreExactlyHomogeneousForPowersOfTwo, (
   RC_ASSERT(same_lanes(scaled, want));
 }
 
-RC_GTEST_PROP(ColorLaws, MallettIsAdditiveWithinItsRoundings, ()) {
+RC_GTEST_PROP(ColorLinearity, MallettIsAdditiveWithinItsRoundings, ()) {
   const auto& upsampler =
       upsampler_for(Method::kMallett, drawn_quantity(), drawn_bands(), NegativeSamples::kKeep);
   const std::size_t lanes = drawn_lanes();
@@ -93,7 +93,7 @@ RC_GTEST_PROP(ColorLaws, MallettIsAdditiveWithinItsRoundings, ()) {
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(ColorLaws, ProjectionIsAdditiveUnderEveryLight, ()) {
+RC_GTEST_PROP(ColorLinearity, ProjectionIsAdditiveUnderEveryLight, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
@@ -114,7 +114,7 @@ RC_GTEST_PROP(ColorLaws, ProjectionIsAdditiveUnderEveryLight, ()) {
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(ColorLaws, RelightingOfMixturesIsHomogeneousWithinItsRoundings, ()) {
+RC_GTEST_PROP(ColorLinearity, RelightingOfMixturesIsHomogeneousWithinItsRoundings, ()) {
   const Bands bands = drawn_bands();
   const auto& upsampler = upsampler_for(drawn_mixture(), Quantity::kUnbounded, bands);
   const Projector projector = drawn_projector(bands);
@@ -143,7 +143,7 @@ RC_GTEST_PROP(ColorLaws, RelightingOfMixturesIsHomogeneousWithinItsRoundings, ()
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(ColorLaws, PermutedColoursGivePermutedSpectraAndRelitColours, ()) {
+RC_GTEST_PROP(ColorLinearity, PermutedColoursGivePermutedSpectraAndRelitColours, ()) {
   const Bands bands = drawn_bands();
   const Method method = drawn_method();
   const Quantity quantity = drawn_quantity();
@@ -166,7 +166,7 @@ RC_GTEST_PROP(ColorLaws, PermutedColoursGivePermutedSpectraAndRelitColours, ()) 
   RC_ASSERT(same_colours(crossed, permuted(straight, order)));
 }
 
-RC_GTEST_PROP(ColorLaws, PermutedSpectraGivePermutedColours, ()) {
+RC_GTEST_PROP(ColorLinearity, PermutedSpectraGivePermutedColours, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
@@ -176,7 +176,7 @@ RC_GTEST_PROP(ColorLaws, PermutedSpectraGivePermutedColours, ()) {
                          permuted(projected(projector, spectra), order)));
 }
 
-RC_GTEST_PROP(ColorLaws, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
+RC_GTEST_PROP(ColorLinearity, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
   const auto& upsampler = upsampler_for(drawn_method(), drawn_quantity(), drawn_bands(), drawn_negative());
   const std::size_t lanes = drawn_lanes();
   const auto rgb = lanes < 20 ? drawn_colours(lanes, ArbitraryFloat(drawn_random()))
@@ -188,7 +188,7 @@ RC_GTEST_PROP(ColorLaws, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
   RC_ASSERT(same_lanes(expanded, upsampled(upsampler, rgb)));
 }
 
-RC_GTEST_PROP(ColorLaws, ColoursOfTheCubeComeBackFromExactMethods, ()) {
+RC_GTEST_PROP(ColorLinearity, ColoursOfTheCubeComeBackFromExactMethods, ()) {
   const auto& upsampler = upsampler_for(drawn_exact(), Quantity::kReflectance, drawn_bands());
   const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), 0, 1, 24));
   const auto projector = *Projector::reflective(upsampler.bands(), *illuminant("D65"));
@@ -205,7 +205,7 @@ RC_GTEST_PROP(ColorLaws, ColoursOfTheCubeComeBackFromExactMethods, ()) {
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(ColorLaws, XyzAndSrgbComeBackFromEachOtherWithinTheirRoundings, ()) {
+RC_GTEST_PROP(ColorLinearity, XyzAndSrgbComeBackFromEachOtherWithinTheirRoundings, ()) {
   const auto first = drawn_colours(drawn_lanes(), Steps(drawn_random(), -4, 16, 16));
   for (const bool from_rgb : {true, false}) {
     auto there = *ColorLanes::create(first.lanes());

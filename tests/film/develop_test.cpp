@@ -149,7 +149,7 @@ std::vector<Bands> kinds_of_bands() {
           *Bands::uniform(360, 830, 1), *Bands::from_list({{359, 400, 830}, {830, 900, 1e7}})};
 }
 
-TEST(FilmOracle, AnyNumberOfWavelengthsAndSamples) {
+TEST(FilmDevelop, AnyNumberOfWavelengthsAndSamples) {
   const auto bands = kinds_of_bands();
   FilmOptions o;
   o.width = 13;
@@ -172,7 +172,7 @@ TEST(FilmOracle, AnyNumberOfWavelengthsAndSamples) {
   }
 }
 
-TEST(FilmOracle, SplattedOverAsymmetricFilters) {
+TEST(FilmDevelop, SplattedOverAsymmetricFilters) {
   FilmOptions o;
   o.width = 13;
   o.height = 7;
@@ -191,7 +191,7 @@ TEST(FilmOracle, SplattedOverAsymmetricFilters) {
   }
 }
 
-TEST(FilmOracle, VarianceOfWeightedAndSplattedSamples) {
+TEST(FilmDevelop, VarianceOfWeightedAndSplattedSamples) {
   for (const bool splat : {false, true}) {
     for (const float scale : {1.0F, 1e-3F, 1e-6F, 1e-8F, 100.0F}) {
       FilmOptions o = small_film();
@@ -239,7 +239,7 @@ TEST(FilmOracle, VarianceOfWeightedAndSplattedSamples) {
   }
 }
 
-TEST(FilmOracle, ConstantSamplesHaveNoVariance) {
+TEST(FilmDevelop, ConstantSamplesHaveNoVariance) {
   for (const float w : {1.0F, 0.3F, 0.7F, 1e-3F}) {
     for (const float v : {1.0F, 0.1F, 123.456F, 1e-5F}) {
       FilmOptions o = small_film();

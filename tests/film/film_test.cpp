@@ -1,4 +1,4 @@
-// Film: what reaches a pixel, the same bits in any order, and exact sums.
+// Film: what reaches a pixel, and what its layers develop to.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -44,49 +44,6 @@ TEST(Film, ConstantRadianceUnderUniformWavelengthsIsItsColour) {
               static_cast<double>(s.radiance(k, 0)) / static_cast<double>(s.density(k, 0)) / 4;
     }
     EXPECT_NEAR(xyz.at(c, 3, 4), want, 12 * 0x1p-24 * want);
-  }
-}
-
-TEST(Film, RefusedSamplesAreCountedByTheFirstReasonAndReachNoPixel) {
-  FilmOptions o = small_film();
-  o.range = 4;
-  o.weight_range = 1;
-  o.spectral = true;
-  o.statistics = PixelStatistics::kVariance;
-  Film film = *Film::create(o);
-  FilmSamples s(12);
-  for (std::size_t i = 0; i < 12; ++i) s.put(i, 5, 5, 1);
-  s.x[0] = kNan;
-  s.weight[1] = kNan;
-  s.radiance(2, 2) = kNan;
-  s.y[3] = -kInf;
-  s.density(0, 4) = 1e-45F;  // radiance over density is infinite
-  s.weight[5] = -0.5F;
-  s.density(3, 6) = -0.001F;
-  s.x[7] = 1e30F;
-  s.radiance(1, 8) = 1e9F;
-  s.weight[9] = 3;
-  s.weight[10] = -1;  // and NaN, which comes first
-  s.lambda(0, 10) = kNan;
-  ASSERT_TRUE(film.add(s.wavelengths()));
-  const FilmRejections r = film.stats().rejected;
-  EXPECT_EQ(r.nan, 4U);
-  EXPECT_EQ(r.infinite, 2U);
-  EXPECT_EQ(r.negative, 2U);
-  EXPECT_EQ(r.outside, 1U);
-  EXPECT_EQ(r.beyond_range, 2U);
-  EXPECT_EQ(film.stats().accepted, 1U);
-  Film one = *Film::create(o);
-  FilmSamples only(1);
-  only.put(0, 5, 5, 1);
-  for (std::size_t k = 0; k < 4; ++k) {
-    only.radiance(k, 0) = s.radiance(k, 11);
-    only.lambda(k, 0) = s.lambda(k, 11);
-  }
-  ASSERT_TRUE(one.add(only.wavelengths()));
-  for (const FilmLayer layer :
-       {FilmLayer::kXyz, FilmLayer::kWeight, FilmLayer::kCount, FilmLayer::kSpectrum}) {
-    EXPECT_EQ(developed(film, layer), developed(one, layer));
   }
 }
 
@@ -233,93 +190,6 @@ TEST(Film, DevelopingAgainTouchesOnlyWhatChanged) {
   EXPECT_GT(xyz.at(0, 2, 2), 0);
 }
 
-TEST(Film, FilmsThatDifferRefuseToMergeAndSayInWhat) {
-  const FilmOptions o = small_film();
-  Film film = *Film::create(o);
-  const auto refusal = [&](auto change) {
-    FilmOptions other = small_film();
-    change(other);
-    const Film second = *Film::create(other);
-    const auto result = film.merge(second);
-    EXPECT_FALSE(result);
-    return result ? "" : result.error().message;
-  };
-  using testing::HasSubstr;
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.width = 21; }), HasSubstr("size: 20 x 20 and 21 x 20"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.range = 31; }), HasSubstr("range: 2^32 and 2^31"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.xyz = Observer::kCie1964; }), HasSubstr("cie1931 and cie1964"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.spectral = true; }), HasSubstr("spectrum"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.filter = *PixelFilter::triangle(); }), HasSubstr("filter"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.statistics = PixelStatistics::kCounts; }),
-              HasSubstr("statistics"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.crop = PixelWindow{0, 0, 5, 5}; }), HasSubstr("crop window"));
-  EXPECT_THAT(refusal([](FilmOptions& p) { p.maximum_component = 3; }), HasSubstr("maximum component"));
-  EXPECT_FALSE(film.merge(film));
-}
-
-TEST(Film, SplattedConstantsStayConstant) {
-  for (const char* filter :
-       {"box:0.5", "box:1.25", "triangle:2", "gaussian:1.5:0.5", "mitchell:2", "lanczos:3:3"}) {
-    FilmOptions o = small_film();
-    o.placement = SamplePlacement::kSplat;
-    o.filter = *PixelFilter::parse(filter);
-    Film film = *Film::create(o);
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> unit(0, 20);
-    FilmSamples s(20000);
-    for (std::size_t i = 0; i < 20000; ++i) s.put(i, unit(random), unit(random), 1);
-    for (std::size_t i = 0; i < 20000; ++i) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        s.lambda(k, i) = s.lambda(k, 0);
-        s.radiance(k, i) = s.radiance(k, 0);
-      }
-    }
-    ASSERT_TRUE(film.add(s.wavelengths()));
-    EXPECT_EQ(film.stats().rejected.total(), 0U);
-    auto xyz = *FilmDevelopment::create(film, FilmLayer::kXyz);
-    ASSERT_TRUE(xyz.update());
-    for (int y = 0; y < 20; ++y) {
-      for (int x = 0; x < 20; ++x) {
-        // The quotient of exact sums: each contribution was rounded once.
-        ASSERT_NEAR(xyz.at(1, x, y) / xyz.at(1, 10, 10), 1, 1e-6) << filter << " " << x << " " << y;
-      }
-    }
-  }
-}
-
-TEST(Film, SplattedWeightsAreTheFilters) {
-  FilmOptions o = small_film();
-  o.placement = SamplePlacement::kSplat;
-  for (const char* text : {"box:1.3x0.7", "triangle:2x1", "gaussian:2:0.6", "mitchell:2", "lanczos:3:2"}) {
-    o.filter = *PixelFilter::parse(text);
-    Film film = *Film::create(o);
-    FilmSamples s(1);
-    s.put(0, 9.8F, 10.3F, 1);
-    ASSERT_TRUE(film.add(s.wavelengths()));
-    auto weight = *FilmDevelopment::create(film, FilmLayer::kWeight);
-    ASSERT_TRUE(weight.update());
-    for (int y = 0; y < 20; ++y) {
-      for (int x = 0; x < 20; ++x) {
-        const double want =
-            o.filter(x + 0.5 - static_cast<double>(9.8F), y + 0.5 - static_cast<double>(10.3F));
-        ASSERT_NEAR(weight.at(0, x, y), want, 2e-6) << text << " " << x << " " << y;
-      }
-    }
-  }
-}
-
-TEST(Film, TheWayToABoxOfHalfAPixelIsTheSameSplattedOrNot) {
-  FilmOptions o = small_film();
-  Film one = *Film::create(o);
-  o.placement = SamplePlacement::kSplat;
-  Film splat = *Film::create(o);
-  const FilmSamples s = random_samples(5000, 9);
-  ASSERT_TRUE(one.add(s.wavelengths()));
-  ASSERT_TRUE(splat.add(s.wavelengths()));
-  EXPECT_EQ(developed(one, FilmLayer::kXyz), developed(splat, FilmLayer::kXyz));
-  EXPECT_EQ(one.stats().rejected, splat.stats().rejected);
-}
-
 TEST(Film, BadOptionsAndBatchesAreErrors) {
   const auto refused = [](auto change) {
     FilmOptions o = small_film();
@@ -348,33 +218,6 @@ TEST(Film, BadOptionsAndBatchesAreErrors) {
   EXPECT_FALSE(FilmDevelopment::create(film, FilmLayer::kVariance));
   EXPECT_FALSE(FilmDevelopment::create(film, FilmLayer::kSpectrum));
   EXPECT_FALSE(FilmDevelopment::create(film, FilmLayer::kSensor));
-}
-
-TEST(Film, SumsBeyondTheRangeAreAnErrorAndNotWrong) {
-  FilmOptions o = small_film();
-  o.input = FilmInput::kBands;
-  o.spectral = true;
-  o.xyz.reset();
-  o.bands = *Bands::uniform(400, 700, 300);
-  o.range = 0;
-  Film film = *Film::create(o);
-  BandBatch b(1, 1);
-  b.put(0, 5, 5, 1);
-  b.radiance(0, 0) = 1;
-  ASSERT_TRUE(film.add(b.samples()));
-  // Doubling by merging: 2^31 contributions of the range's end fit, twice as many are said to be too many.
-  for (int i = 0; i < 31; ++i) {
-    Film twin = *Film::create(o);
-    ASSERT_TRUE(twin.merge(film));
-    ASSERT_TRUE(film.merge(twin)) << i;
-  }
-  EXPECT_EQ(developed(film, FilmLayer::kSpectrum)[5 * 20 + 5], 1);
-  Film twin = *Film::create(o);
-  ASSERT_TRUE(twin.merge(film));
-  const auto result = film.merge(twin);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, ErrorCode::kUnavailable);
-  EXPECT_FALSE(film.add(b.samples()));
 }
 
 }  // namespace

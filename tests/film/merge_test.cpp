@@ -42,7 +42,7 @@ void add_in_batches(Film& film, const BandBatch& b, std::size_t batch) {
   }
 }
 
-TEST(FilmCanonical, BatchesThatEndWhereRestsAreCarriedOver) {
+TEST(FilmMerge, BatchesThatEndWhereRestsAreCarriedOver) {
   constexpr std::size_t kCarriedAfter = std::size_t{1} << 18;
   for (const std::size_t more : {1U, 64U, 1000U, 1024U, 5000U}) {
     const BandBatch b = with_large_rests(kCarriedAfter + more);
@@ -54,7 +54,7 @@ TEST(FilmCanonical, BatchesThatEndWhereRestsAreCarriedOver) {
   }
 }
 
-TEST(FilmCanonical, AFilmIsWhatItsMergedPartsAreAtTheCarry) {
+TEST(FilmMerge, AFilmIsWhatItsMergedPartsAreAtTheCarry) {
   constexpr std::size_t kN = (std::size_t{1} << 18) + 1024;
   const BandBatch b = with_large_rests(kN);
   Film one = *Film::create(plain_film(8));
@@ -79,7 +79,7 @@ Film cancelling() {
   return film;
 }
 
-TEST(FilmCanonical, DevelopedBitsDoNotDependOnWhatWasCarriedOver) {
+TEST(FilmMerge, DevelopedBitsDoNotDependOnWhatWasCarriedOver) {
   const Film film = cancelling();
   const auto before = developed(film, FilmLayer::kSpectrum);
   Film copy = *Film::create(plain_film(8));
@@ -100,7 +100,7 @@ FilmOptions full_film() {
   return o;
 }
 
-TEST(FilmCanonical, MergingIsAssociativeCommutativeAndEmptyIsItsZero) {
+TEST(FilmMerge, MergingIsAssociativeCommutativeAndEmptyIsItsZero) {
   const FilmOptions o = full_film();
   const auto part = [&](std::uint32_t seed) {
     Film film = *Film::create(o);
@@ -129,7 +129,7 @@ TEST(FilmCanonical, MergingIsAssociativeCommutativeAndEmptyIsItsZero) {
   EXPECT_EQ(sum({&a, &b, &c}).stats().accepted, a.stats().accepted + b.stats().accepted + c.stats().accepted);
 }
 
-TEST(FilmCanonical, ManyMergesAreOneFilm) {
+TEST(FilmMerge, ManyMergesAreOneFilm) {
   const FilmOptions o = full_film();
   const FilmSamples all = random_samples(2000, 11);
   Film whole = *Film::create(o);
@@ -144,7 +144,7 @@ TEST(FilmCanonical, ManyMergesAreOneFilm) {
   EXPECT_EQ(whole.stats().rejected, merged.stats().rejected);
 }
 
-TEST(FilmCanonical, RestsOfEitherSignAddUpAcrossManyCarries) {
+TEST(FilmMerge, RestsOfEitherSignAddUpAcrossManyCarries) {
   // Steps of plus and minus nearly one half of a coarse step, past several carries: the sum is known.
   constexpr std::size_t kN = 700000;
   BandBatch b(1, kN);
@@ -162,6 +162,30 @@ TEST(FilmCanonical, RestsOfEitherSignAddUpAcrossManyCarries) {
   Film other = *Film::create(plain_film(8));
   add_in_batches(other, b, 77777);
   EXPECT_TRUE(film.same_contents(other));
+}
+
+TEST(Film, FilmsThatDifferRefuseToMergeAndSayInWhat) {
+  const FilmOptions o = small_film();
+  Film film = *Film::create(o);
+  const auto refusal = [&](auto change) {
+    FilmOptions other = small_film();
+    change(other);
+    const Film second = *Film::create(other);
+    const auto result = film.merge(second);
+    EXPECT_FALSE(result);
+    return result ? "" : result.error().message;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.width = 21; }), HasSubstr("size: 20 x 20 and 21 x 20"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.range = 31; }), HasSubstr("range: 2^32 and 2^31"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.xyz = Observer::kCie1964; }), HasSubstr("cie1931 and cie1964"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.spectral = true; }), HasSubstr("spectrum"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.filter = *PixelFilter::triangle(); }), HasSubstr("filter"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.statistics = PixelStatistics::kCounts; }),
+              HasSubstr("statistics"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.crop = PixelWindow{0, 0, 5, 5}; }), HasSubstr("crop window"));
+  EXPECT_THAT(refusal([](FilmOptions& p) { p.maximum_component = 3; }), HasSubstr("maximum component"));
+  EXPECT_FALSE(film.merge(film));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ FilmOptions plain_film(int range) {
   return o;
 }
 
-TEST(FilmLimits, ContributionsAreExactAtEveryRange) {
+TEST(FilmRange, ContributionsAreExactAtEveryRange) {
   for (const int range : {-32, -1, 0, 32, 96}) {
     Film film = *Film::create(plain_film(range));
     // The range itself, its negative and what is just beyond; the least exact one.
@@ -38,7 +38,7 @@ TEST(FilmLimits, ContributionsAreExactAtEveryRange) {
   }
 }
 
-TEST(FilmLimits, WeightsAreExactAtEveryRange) {
+TEST(FilmRange, WeightsAreExactAtEveryRange) {
   for (const int range : {-16, 0, 16, 32}) {
     FilmOptions o = plain_film(32);
     o.weight_range = range;
@@ -57,7 +57,7 @@ TEST(FilmLimits, WeightsAreExactAtEveryRange) {
   }
 }
 
-TEST(FilmLimits, NoComponentIsAboveTheMaximumByMoreThanRounding) {
+TEST(FilmRange, NoComponentIsAboveTheMaximumByMoreThanRounding) {
   for (const float maximum : {1e-12F, 1e-3F, 0.1F, 1.0F, 3.3F, 1e20F}) {
     for (const float value : {1.5F, 1e3F, 7.77e10F, 3e30F, 3e38F}) {
       for (const auto input : {FilmInput::kBands, FilmInput::kWavelengths}) {
@@ -99,7 +99,7 @@ TEST(FilmLimits, NoComponentIsAboveTheMaximumByMoreThanRounding) {
   }
 }
 
-TEST(FilmLimits, ClampedColoursKeepTheirProportions) {
+TEST(FilmRange, ClampedColoursKeepTheirProportions) {
   FilmOptions o = plain_film(16);
   o.xyz = Observer::kCie1931;
   o.spectral = false;
@@ -116,7 +116,7 @@ TEST(FilmLimits, ClampedColoursKeepTheirProportions) {
   for (const std::size_t c : {0U, 2U}) EXPECT_NEAR(got[16 * c] / got[16], want[16 * c] / want[16], 1e-6);
 }
 
-TEST(FilmLimits, ADevelopmentStaysWithItsFilmWhereverThatIs) {
+TEST(FilmRange, ADevelopmentStaysWithItsFilmWhereverThatIs) {
   FilmOptions o = small_film();
   Film film = *Film::create(o);
   FilmSamples s(1);
@@ -140,7 +140,7 @@ TEST(FilmLimits, ADevelopmentStaysWithItsFilmWhereverThatIs) {
   EXPECT_EQ(weight.at(0, 6, 6), 3);
 }
 
-TEST(FilmLimits, LongAndSmallFilms) {
+TEST(FilmRange, LongAndSmallFilms) {
   struct Size {
     int width, height;
     PixelWindow crop;
@@ -175,7 +175,7 @@ TEST(FilmLimits, LongAndSmallFilms) {
   }
 }
 
-TEST(FilmLimits, WeightsThatCancelGiveBlack) {
+TEST(FilmRange, WeightsThatCancelGiveBlack) {
   FilmOptions o = small_film();
   o.negative_weights = true;
   o.statistics = PixelStatistics::kVariance;
@@ -198,6 +198,33 @@ TEST(FilmLimits, WeightsThatCancelGiveBlack) {
   EXPECT_EQ(count.at(0, 5, 5), 2);
   EXPECT_EQ(count.at(0, 6, 5), 1);
   EXPECT_EQ(variance.at(0, 7, 5), kInf);
+}
+
+TEST(Film, SumsBeyondTheRangeAreAnErrorAndNotWrong) {
+  FilmOptions o = small_film();
+  o.input = FilmInput::kBands;
+  o.spectral = true;
+  o.xyz.reset();
+  o.bands = *Bands::uniform(400, 700, 300);
+  o.range = 0;
+  Film film = *Film::create(o);
+  BandBatch b(1, 1);
+  b.put(0, 5, 5, 1);
+  b.radiance(0, 0) = 1;
+  ASSERT_TRUE(film.add(b.samples()));
+  // Doubling by merging: 2^31 contributions of the range's end fit, twice as many are said to be too many.
+  for (int i = 0; i < 31; ++i) {
+    Film twin = *Film::create(o);
+    ASSERT_TRUE(twin.merge(film));
+    ASSERT_TRUE(film.merge(twin)) << i;
+  }
+  EXPECT_EQ(developed(film, FilmLayer::kSpectrum)[5 * 20 + 5], 1);
+  Film twin = *Film::create(o);
+  ASSERT_TRUE(twin.merge(film));
+  const auto result = film.merge(twin);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kUnavailable);
+  EXPECT_FALSE(film.add(b.samples()));
 }
 
 }  // namespace

@@ -203,5 +203,48 @@ TEST(FilmRejections, AWavelengthOutsideEveryBandContributesNothing) {
   EXPECT_EQ(film.stats().accepted, 1U);
 }
 
+TEST(Film, RefusedSamplesAreCountedByTheFirstReasonAndReachNoPixel) {
+  FilmOptions o = small_film();
+  o.range = 4;
+  o.weight_range = 1;
+  o.spectral = true;
+  o.statistics = PixelStatistics::kVariance;
+  Film film = *Film::create(o);
+  FilmSamples s(12);
+  for (std::size_t i = 0; i < 12; ++i) s.put(i, 5, 5, 1);
+  s.x[0] = kNan;
+  s.weight[1] = kNan;
+  s.radiance(2, 2) = kNan;
+  s.y[3] = -kInf;
+  s.density(0, 4) = 1e-45F;  // radiance over density is infinite
+  s.weight[5] = -0.5F;
+  s.density(3, 6) = -0.001F;
+  s.x[7] = 1e30F;
+  s.radiance(1, 8) = 1e9F;
+  s.weight[9] = 3;
+  s.weight[10] = -1;  // and NaN, which comes first
+  s.lambda(0, 10) = kNan;
+  ASSERT_TRUE(film.add(s.wavelengths()));
+  const FilmRejections r = film.stats().rejected;
+  EXPECT_EQ(r.nan, 4U);
+  EXPECT_EQ(r.infinite, 2U);
+  EXPECT_EQ(r.negative, 2U);
+  EXPECT_EQ(r.outside, 1U);
+  EXPECT_EQ(r.beyond_range, 2U);
+  EXPECT_EQ(film.stats().accepted, 1U);
+  Film one = *Film::create(o);
+  FilmSamples only(1);
+  only.put(0, 5, 5, 1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    only.radiance(k, 0) = s.radiance(k, 11);
+    only.lambda(k, 0) = s.lambda(k, 11);
+  }
+  ASSERT_TRUE(one.add(only.wavelengths()));
+  for (const FilmLayer layer :
+       {FilmLayer::kXyz, FilmLayer::kWeight, FilmLayer::kCount, FilmLayer::kSpectrum}) {
+    EXPECT_EQ(developed(film, layer), developed(one, layer));
+  }
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -34,7 +34,7 @@ Film fed(const FilmOptions& options, const FilmSamples& samples) {
   return film;
 }
 
-RC_GTEST_PROP(FilmLaws, PermutedSamplesGiveTheSameBits, ()) {
+RC_GTEST_PROP(FilmScaling, PermutedSamplesGiveTheSameBits, ()) {
   const FilmOptions o = drawn_film();
   const std::size_t n = drawn_lanes();
   const FilmSamples samples = random_samples(n, *rc::gen::arbitrary<std::uint32_t>());
@@ -47,7 +47,7 @@ RC_GTEST_PROP(FilmLaws, PermutedSamplesGiveTheSameBits, ()) {
   }
 }
 
-RC_GTEST_PROP(FilmLaws, TheFilmOfAUnionIsTheMergeOfTheFilms, ()) {
+RC_GTEST_PROP(FilmScaling, TheFilmOfAUnionIsTheMergeOfTheFilms, ()) {
   const FilmOptions o = drawn_film();
   const std::size_t n = drawn_lanes();
   const FilmSamples samples = random_samples(n, *rc::gen::arbitrary<std::uint32_t>());
@@ -65,7 +65,7 @@ RC_GTEST_PROP(FilmLaws, TheFilmOfAUnionIsTheMergeOfTheFilms, ()) {
   RC_ASSERT(merged.stats().rejected == both.stats().rejected);
 }
 
-RC_GTEST_PROP(FilmLaws, BandSamplesObeyTheSameLaws, ()) {
+RC_GTEST_PROP(FilmScaling, BandSamplesObeyTheSameLaws, ()) {
   FilmOptions o = small_film();
   o.input = FilmInput::kBands;
   o.spectral = true;
@@ -131,7 +131,7 @@ bool times_exactly(const Film& plain, const Film& times, FilmLayer layer, float 
   return true;
 }
 
-RC_GTEST_PROP(FilmLaws, RadianceAndRangeTimesAPowerOfTwoScaleThePictureExactly, ()) {
+RC_GTEST_PROP(FilmScaling, RadianceAndRangeTimesAPowerOfTwoScaleThePictureExactly, ()) {
   // The grid moves along, so each count of its steps is the same: also where contributions are rounded to it.
   FilmOptions o = drawn_film();
   o.statistics = PixelStatistics::kNone;
@@ -148,7 +148,7 @@ RC_GTEST_PROP(FilmLaws, RadianceAndRangeTimesAPowerOfTwoScaleThePictureExactly, 
   RC_ASSERT(times_exactly(plain, times, FilmLayer::kWeight, 1));
 }
 
-RC_GTEST_PROP(FilmLaws, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
+RC_GTEST_PROP(FilmScaling, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
   // Contributions are exact down to 2^(range - 51), 2^-35 here, which is 3e-11. The curves' least positive
   // value at eighths of a nanometre is above 5e-8; times radiance over density, at least 400, a quarter for
   // the four wavelengths, 1/107 and 2^-6 leave above 5e-10.
@@ -174,7 +174,7 @@ RC_GTEST_PROP(FilmLaws, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
   }
 }
 
-RC_GTEST_PROP(FilmLaws, SamplesThatAreNotNegativeMakeNoNegativePixel, ()) {
+RC_GTEST_PROP(FilmScaling, SamplesThatAreNotNegativeMakeNoNegativePixel, ()) {
   const FilmOptions o = drawn_film();
   FilmSamples samples = drawn_samples(drawn_lanes());
   ArbitraryFloat wild(drawn_random());

@@ -156,5 +156,68 @@ TEST(FilmSplat, FiltersHigherThanAtTheirCentresAreRefused) {
   }
 }
 
+TEST(Film, SplattedConstantsStayConstant) {
+  for (const char* filter :
+       {"box:0.5", "box:1.25", "triangle:2", "gaussian:1.5:0.5", "mitchell:2", "lanczos:3:3"}) {
+    FilmOptions o = small_film();
+    o.placement = SamplePlacement::kSplat;
+    o.filter = *PixelFilter::parse(filter);
+    Film film = *Film::create(o);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 20);
+    FilmSamples s(20000);
+    for (std::size_t i = 0; i < 20000; ++i) s.put(i, unit(random), unit(random), 1);
+    for (std::size_t i = 0; i < 20000; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        s.lambda(k, i) = s.lambda(k, 0);
+        s.radiance(k, i) = s.radiance(k, 0);
+      }
+    }
+    ASSERT_TRUE(film.add(s.wavelengths()));
+    EXPECT_EQ(film.stats().rejected.total(), 0U);
+    auto xyz = *FilmDevelopment::create(film, FilmLayer::kXyz);
+    ASSERT_TRUE(xyz.update());
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        // The quotient of exact sums: each contribution was rounded once.
+        ASSERT_NEAR(xyz.at(1, x, y) / xyz.at(1, 10, 10), 1, 1e-6) << filter << " " << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(Film, SplattedWeightsAreTheFilters) {
+  FilmOptions o = small_film();
+  o.placement = SamplePlacement::kSplat;
+  for (const char* text : {"box:1.3x0.7", "triangle:2x1", "gaussian:2:0.6", "mitchell:2", "lanczos:3:2"}) {
+    o.filter = *PixelFilter::parse(text);
+    Film film = *Film::create(o);
+    FilmSamples s(1);
+    s.put(0, 9.8F, 10.3F, 1);
+    ASSERT_TRUE(film.add(s.wavelengths()));
+    auto weight = *FilmDevelopment::create(film, FilmLayer::kWeight);
+    ASSERT_TRUE(weight.update());
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        const double want =
+            o.filter(x + 0.5 - static_cast<double>(9.8F), y + 0.5 - static_cast<double>(10.3F));
+        ASSERT_NEAR(weight.at(0, x, y), want, 2e-6) << text << " " << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(Film, TheWayToABoxOfHalfAPixelIsTheSameSplattedOrNot) {
+  FilmOptions o = small_film();
+  Film one = *Film::create(o);
+  o.placement = SamplePlacement::kSplat;
+  Film splat = *Film::create(o);
+  const FilmSamples s = random_samples(5000, 9);
+  ASSERT_TRUE(one.add(s.wavelengths()));
+  ASSERT_TRUE(splat.add(s.wavelengths()));
+  EXPECT_EQ(developed(one, FilmLayer::kXyz), developed(splat, FilmLayer::kXyz));
+  EXPECT_EQ(one.stats().rejected, splat.stats().rejected);
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -55,7 +55,7 @@ std::int64_t most_steps(const SampledSpectra& a, const SampledSpectra& b) {
   return most;
 }
 
-RC_GTEST_PROP(Laws, PermutedLanesGivePermutedResults, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, PermutedLanesGivePermutedResults, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
   SampledSpectra in[3] = {drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random())),
@@ -91,7 +91,7 @@ RC_GTEST_PROP(Laws, PermutedLanesGivePermutedResults, ()) {
     RC_ASSERT(same_lanes(crossed[f], permuted(straight[f], order)));
 }
 
-RC_GTEST_PROP(Laws, PermutedLanesHavePermutedExtremesAndAverages, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, PermutedLanesHavePermutedExtremesAndAverages, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
   const auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
@@ -107,7 +107,7 @@ RC_GTEST_PROP(Laws, PermutedLanesHavePermutedExtremesAndAverages, ()) {
   }
 }
 
-RC_GTEST_PROP(Laws, SumsAndProductsCommuteAndDifferencesFlip, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, SumsAndProductsCommuteAndDifferencesFlip, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   const auto b = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
@@ -160,7 +160,7 @@ std::pair<std::int64_t, bool> falls(const Ascending& x, const SampledSpectra& lo
   return {most, clearly};
 }
 
-RC_GTEST_PROP(Laws, ExponentialsRise, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, ExponentialsRise, ()) {
   const auto x = drawn_ascending(drawn_lanes(), -104, 90);
   const auto [most, clearly] =
       falls(x, unary(&exp, x.low), unary(&exp, x.high), [](double v) { return std::exp(v); });
@@ -168,7 +168,7 @@ RC_GTEST_PROP(Laws, ExponentialsRise, ()) {
   RC_ASSERT(!clearly);
 }
 
-RC_GTEST_PROP(Laws, PowersRise, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, PowersRise, ()) {
   const float exponent = *rc::gen::element(0.5F, 1.0F / 3, 2.2F, 1 / 2.4F, 1e-3F, 7.0F, 37.25F);
   const auto x = drawn_ascending(drawn_lanes(), 0, 10);
   const auto [most, clearly] = falls(x, power(x.low, exponent), power(x.high, exponent),
@@ -177,12 +177,12 @@ RC_GTEST_PROP(Laws, PowersRise, ()) {
   RC_ASSERT(!clearly);
 }
 
-RC_GTEST_PROP(Laws, RootsRiseWithoutException, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, RootsRiseWithoutException, ()) {
   const auto x = drawn_ascending(drawn_lanes(), 0, 1e30F);
   RC_ASSERT(falls(x, unary(&sqrt, x.low), unary(&sqrt, x.high), [](double v) { return v; }).first == 0);
 }
 
-RC_GTEST_PROP(Laws, SumsProductsAndMixturesRiseWithoutException, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, SumsProductsAndMixturesRiseWithoutException, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto x = drawn_ascending(lanes, -100, 100);
   const auto other = drawn_spectra(few_bands(), lanes, Steps(drawn_random(), -50, 50, 16));
@@ -200,7 +200,7 @@ RC_GTEST_PROP(Laws, SumsProductsAndMixturesRiseWithoutException, ()) {
   RC_ASSERT(falls(x, scaled(x.low), scaled(x.high), truth).first == 0);
 }
 
-RC_GTEST_PROP(Laws, PowersAgreeWithProductsQuotientsAndRoots, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, PowersAgreeWithProductsQuotientsAndRoots, ()) {
   const std::size_t lanes = drawn_lanes();
   auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   const auto one = *SampledSpectra::constant(few_bands(), lanes, 1);
@@ -216,7 +216,7 @@ RC_GTEST_PROP(Laws, PowersAgreeWithProductsQuotientsAndRoots, ()) {
   RC_ASSERT(most_steps(power(magnitude, 0.5F), unary(&sqrt, magnitude)) <= 1);
 }
 
-RC_GTEST_PROP(Laws, FloatsComeBackFromHalfWithinHalfAStep, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, FloatsComeBackFromHalfWithinHalfAStep, ()) {
   std::vector<float> values(256);
   ArbitraryFloat arbitrary(drawn_random());
   for (float& v : values) {
@@ -245,7 +245,7 @@ RC_GTEST_PROP(Laws, FloatsComeBackFromHalfWithinHalfAStep, ()) {
   }
 }
 
-TEST(Laws, SeedIsSet) {
+TEST(ArithmeticIdentities, SeedIsSet) {
   EXPECT_EQ(kLawsSeeded, 0);
 }
 

@@ -75,7 +75,7 @@ std::vector<std::size_t> any_order(std::size_t n) {
   return order;
 }
 
-RC_GTEST_PROP(Properties, PermutedColoursGivePermutedSpectra, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, PermutedColoursGivePermutedSpectra, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
   const auto rgb = any_colours(lanes, any_float());
@@ -95,7 +95,7 @@ RC_GTEST_PROP(Properties, PermutedColoursGivePermutedSpectra, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, PermutedSpectraGivePermutedColours, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, PermutedSpectraGivePermutedColours, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
   const auto spectra = any_spectra(bands, lanes, any_float());
@@ -112,7 +112,7 @@ RC_GTEST_PROP(Properties, PermutedSpectraGivePermutedColours, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, ProjectionIsLinearWithinItsRoundings, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, ProjectionIsLinearWithinItsRoundings, ()) {
   const std::size_t lanes = *rc::gen::inRange<std::size_t>(1, 20);
   const Bands bands = any_bands();
   const auto x = any_spectra(bands, lanes, between(-4, 4));
@@ -144,7 +144,7 @@ RC_GTEST_PROP(Properties, ProjectionIsLinearWithinItsRoundings, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, PowersOfTwoPassThroughUpsamplingAndProjectionExactly, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, PowersOfTwoPassThroughUpsamplingAndProjectionExactly, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
   const float factor = std::ldexp(1.0F, *rc::gen::inRange(-20, 21));
@@ -171,7 +171,7 @@ RC_GTEST_PROP(Properties, PowersOfTwoPassThroughUpsamplingAndProjectionExactly, 
   }
 }
 
-RC_GTEST_PROP(Properties, ClampedSpectraAndTheirColoursAreNotNegative, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, ClampedSpectraAndTheirColoursAreNotNegative, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
   const auto rgb = any_colours(lanes, any_float());
@@ -186,7 +186,7 @@ RC_GTEST_PROP(Properties, ClampedSpectraAndTheirColoursAreNotNegative, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, HalvesGoToFloatAndBackUnchanged, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, HalvesGoToFloatAndBackUnchanged, ()) {
   const auto some = *rc::gen::container<std::vector<std::uint16_t>>(64, rc::gen::arbitrary<std::uint16_t>());
   for (const kernels::KernelTable* table : dispatch::available()) {
     Floats floats(64);
@@ -203,7 +203,7 @@ RC_GTEST_PROP(Properties, HalvesGoToFloatAndBackUnchanged, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, AverageLiesBetweenTheExtremes, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, AverageLiesBetweenTheExtremes, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
   const auto spectra = any_spectra(bands, lanes, between(0, 4));
@@ -220,7 +220,7 @@ RC_GTEST_PROP(Properties, AverageLiesBetweenTheExtremes, ()) {
   }
 }
 
-RC_GTEST_PROP(Properties, CoarseBandsHoldTheMeanOfTheirFineOnes, ()) {
+RC_GTEST_PROP(SampledSpectraBatches, CoarseBandsHoldTheMeanOfTheirFineOnes, ()) {
   const auto wavelengths = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
       rc::gen::map(rc::gen::inRange(3500, 8000), [](int v) { return 0.1 * v; })));
   const auto values = *rc::gen::container<std::vector<double>>(
@@ -234,7 +234,7 @@ RC_GTEST_PROP(Properties, CoarseBandsHoldTheMeanOfTheirFineOnes, ()) {
   }
 }
 
-TEST(Properties, SeedIsSet) {
+TEST(SampledSpectraBatches, SeedIsSet) {
   EXPECT_EQ(kSeeded, 0);
   ASSERT_NE(std::getenv("RC_PARAMS"), nullptr);
 }

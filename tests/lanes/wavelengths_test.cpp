@@ -2,132 +2,15 @@
 #include <spectile/lanes/wavelengths.hpp>
 
 #include "src/data/tables.hpp"
-#include "tests/support/lanes.hpp"
+#include "tests/lanes/wavelengths_support.hpp"
 
 namespace spectile::test {
 namespace {
 
-/// Lanes with wavelengths from low to high in random order, and the values that a spectrum has there.
-struct Looked {
-  WavelengthLanes lambda, values;
-};
-
-Looked look_up(const Spectrum& spectrum, double low, double high, std::size_t lanes = 4099,
-               std::size_t count = 4) {
-  Looked out{*WavelengthLanes::create(lanes, count), *WavelengthLanes::create(lanes, count)};
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> nm(static_cast<float>(low), static_cast<float>(high));
-  for (std::size_t i = 0; i < lanes * count; ++i) out.lambda.at(i % lanes, i / lanes) = nm(random);
-  EXPECT_TRUE(sample(spectrum, out.lambda.view(), out.values.span()));
-  return out;
-}
-
-void expect_within(const Spectrum& spectrum, double low, double high, double relative, double absolute) {
-  const Looked got = look_up(spectrum, low, high);
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t i = 0; i < 4099; ++i) {
-      const double nm = got.lambda.at(i, k);
-      const double want = spectrum(nm);
-      ASSERT_NEAR(got.values.at(i, k), want, relative * std::abs(want) + absolute)
-          << spectrum.to_text() << " at " << nm;
-    }
-  }
-}
-
-TEST(SpectrumSampler, IsTheDistributionWithinItsBound) {
-  constexpr double kU = 0x1p-24;
-  expect_within(ConstantSpectrum(0.3), 300, 900, kU, 0);
-  for (const double t : {1.0, 300.0, 2856.0, 6504.0, 1e5, 1e9}) {
-    expect_within(*BlackbodySpectrum::create(t), 1, 20000, 6 * kU, 1e-44);
-    expect_within(*BlackbodySpectrum::create(t, BlackbodySpectrum::Scale::kNormalized), 200, 2000, 6 * kU,
-                  1e-44);
-  }
-  expect_within(*GaussianSumSpectrum::from_lobes({{2, 500, 20, 30}, {1, 620, 3, 1}}), 300, 900, 1.01 * kU,
-                1e-44);
-  const auto dense = *DenselySampledSpectrum::from(*BlackbodySpectrum::create(4000));
-  expect_within(dense, 300, 900, 4 * kU, 0);
-  const auto light = PiecewiseLinearSpectrum(*illuminant("FL11"));
-  expect_within(light, 300, 900, 4 * kU, 4 * kU * light.max_value());
-}
-
-TEST(SpectrumSampler, UpsampledOnesAreWhatTheirFormulasSay) {
-  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
-    for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
-      const auto upsampler = *Upsampler::create(method, quantity, Bands());
-      const auto s = *UpsampledSpectrum::from_rgb(upsampler, {0.9, 0.4, 0.05});
-      expect_within(s, 300, 900, 0, 3e-7 * s.max_value() + 3e-7);
-    }
-  }
-}
-
-TEST(SpectrumSampler, AnyPiecewiseLinearTableIsFound) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (int table = 0; table < 300; ++table) {
-    std::vector<double> nm;
-    std::vector<double> v;
-    double at = 300 + 200 * unit(random);
-    const std::size_t count = 1 + random() % 60;
-    for (std::size_t i = 0; i < count; ++i) {
-      // Bunched and far apart; as floats, so that the knots are where they were.
-      nm.push_back(static_cast<float>(at));
-      v.push_back(unit(random));
-      at += random() % 4 == 0 ? 0 : std::pow(10.0, 4 * unit(random) - 2);
-    }
-    const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);
-    const auto sampler = *SpectrumSampler::create(s);
-    auto lambda = *WavelengthLanes::create(256, 1);
-    auto values = *WavelengthLanes::create(256, 1);
-    for (std::size_t i = 0; i < 256; ++i) {
-      lambda.at(i, 0) = i < nm.size()
-                            ? static_cast<float>(nm[i])
-                            : static_cast<float>(nm.front() - 5 + (at - nm.front() + 10) * unit(random));
-    }
-    ASSERT_TRUE(sampler.sample(lambda.view(), values.span()));
-    for (std::size_t i = 0; i < 256; ++i) {
-      ASSERT_NEAR(values.at(i, 0), s(static_cast<double>(lambda.at(i, 0))), 3e-7) << table << " " << i;
-    }
-  }
-}
-
-TEST(SpectrumSampler, ResultsDependOnNeitherThreadsNorTiles) {
-  const Spectrum s = PiecewiseLinearSpectrum(*illuminant("FL11"));
-  const Looked want = look_up(s, 300, 900);
-  auto values = *WavelengthLanes::create(4099, 4);
-  for (const int threads : {1, 2, 5}) {
-    ASSERT_TRUE(sample(s, want.lambda.view(), values.span(), {threads, 64}));
-    for (std::size_t i = 0; i < 4 * 4099; ++i) {
-      ASSERT_TRUE(same_bits(values.at(i % 4099, i / 4099), want.values.at(i % 4099, i / 4099)));
-    }
-  }
-}
-
-TEST(SpectrumSampler, BatchesThatDoNotFitAreErrors) {
-  const auto sampler = *SpectrumSampler::create(ConstantSpectrum(1));
-  auto four = *WavelengthLanes::create(64, 4);
-  auto five = *WavelengthLanes::create(64, 5);
-  auto more = *WavelengthLanes::create(65, 4);
-  EXPECT_FALSE(sampler.sample(four.view(), five.span()));
-  EXPECT_FALSE(sampler.sample(four.view(), more.span()));
-  EXPECT_FALSE(WavelengthLanes::create(64, 0));
-  EXPECT_FALSE(WavelengthLanes::create(64, 65));
-}
-
 // --- Drawing
 
-SampledWavelengths drawn(WavelengthSampling sampling, std::size_t lanes, std::size_t count,
-                         std::uint32_t seed, double first = 360, double last = 830) {
-  auto u = *ScalarLanes::create(lanes);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  for (std::size_t i = 0; i < lanes; ++i) u[i] = unit(random);
-  auto out = *SampledWavelengths::create(lanes, count);
-  EXPECT_TRUE(sample_wavelengths(sampling, u.view(), out, first, last));
-  return out;
-}
-
 TEST(SampleWavelengths, UniformOnesAreStratifiedAndWrapAround) {
-  const auto w = drawn(WavelengthSampling::kUniform, 999, 8, 1, 400, 720);
+  const auto w = drawn_wavelengths(WavelengthSampling::kUniform, 999, 8, 1, 400, 720);
   for (std::size_t i = 0; i < 999; ++i) {
     std::vector<float> sorted;
     for (std::size_t k = 0; k < 8; ++k) {
@@ -142,7 +25,7 @@ TEST(SampleWavelengths, UniformOnesAreStratifiedAndWrapAround) {
 }
 
 TEST(SampleWavelengths, VisibleOnesFollowTheirDensity) {
-  const auto w = drawn(WavelengthSampling::kVisible, 200000, 1, 2);
+  const auto w = drawn_wavelengths(WavelengthSampling::kVisible, 200000, 1, 2);
   // Shares of 47 intervals of 10 nm against the density's integral; five standard deviations.
   std::vector<double> counts(47);
   for (std::size_t i = 0; i < w.lanes(); ++i) {
@@ -183,92 +66,8 @@ TEST(SampleWavelengths, NumbersThatAreNoneGiveNoneAndOthersAreLimited) {
   EXPECT_FALSE(sample_wavelengths(WavelengthSampling::kUniform, u.view(), more));
 }
 
-// --- Projecting
-
-struct Estimate {
-  std::array<double, 3> mean{}, variance{};  // of one lane; the mean's own is that over the lanes
-};
-
-Estimate estimate(const Spectrum& light, WavelengthSampling sampling, std::size_t count, bool terminate,
-                  std::size_t lanes = 100000) {
-  auto w = drawn(sampling, lanes, count, 21);
-  if (terminate) {
-    std::vector<std::uint8_t> hit(lanes);
-    for (std::size_t i = 0; i < lanes; ++i) hit[i] = i % 3 != 0;
-    EXPECT_TRUE(terminate_secondary(w, hit));
-  }
-  auto radiance = *WavelengthLanes::create(lanes, count);
-  EXPECT_TRUE(sample(light, w.lambda_nm.view(), radiance.span()));
-  auto xyz = *ColorLanes::create(lanes);
-  EXPECT_TRUE(project(*ResponseCurves::of_observer(), radiance.view(), w, xyz.span()));
-  Estimate out;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double sum = 0;
-    double squares = 0;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      sum += xyz.at(i, c);
-      squares += static_cast<double>(xyz.at(i, c)) * xyz.at(i, c);
-    }
-    const double n = static_cast<double>(lanes);
-    out.mean[c] = sum / n;
-    out.variance[c] = squares / n - out.mean[c] * out.mean[c];
-  }
-  return out;
-}
-
-std::array<double, 3> truth(const Spectrum& light) {
-  const data::MatchingFunctions& cie = data::kCie1931;
-  const std::span<const double> bars[3] = {cie.x_bar, cie.y_bar, cie.z_bar};
-  std::array<double, 3> out{};
-  double whole = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto curve = *DenselySampledSpectrum::from_values(360, {bars[c].begin(), bars[c].end()});
-    out[c] = inner_product(curve, light);
-    if (c == 1) whole = curve.integral(360, 830);
-  }
-  for (double& v : out) v /= whole;
-  return out;
-}
-
-TEST(ProjectWavelengths, EstimatesAreUnbiased) {
-  // 99.99 % of all means lie within four standard errors; the seeds are fixed. Stratified lanes of the
-  // smoothest light have almost no variance: rounding is allowed for.
-  const Spectrum lights[] = {ConstantSpectrum(1),
-                             *BlackbodySpectrum::create(2856, BlackbodySpectrum::Scale::kNormalized),
-                             PiecewiseLinearSpectrum(*illuminant("FL11")).scaled(0.01)};
-  for (const Spectrum& light : lights) {
-    const auto want = truth(light);
-    for (const auto sampling : {WavelengthSampling::kUniform, WavelengthSampling::kVisible}) {
-      for (const std::size_t count : {1, 4, 8}) {
-        for (const bool terminate : {false, true}) {
-          const Estimate got = estimate(light, sampling, count, terminate);
-          for (std::size_t c = 0; c < 3; ++c) {
-            const double error = std::sqrt(got.variance[c] / 100000);
-            EXPECT_NEAR(got.mean[c], want[c], 4 * error + 1e-6 * want[c])
-                << light.to_text() << " " << count << " component " << c;
-          }
-        }
-      }
-    }
-  }
-}
-
-TEST(ProjectWavelengths, VisibleOnesHaveTheLowerVariance) {
-  for (const Spectrum& light :
-       {Spectrum(ConstantSpectrum(1)), Spectrum(PiecewiseLinearSpectrum(*illuminant("D65")))}) {
-    for (const std::size_t count : {1, 4}) {
-      const Estimate uniform = estimate(light, WavelengthSampling::kUniform, count, false);
-      const Estimate visible = estimate(light, WavelengthSampling::kVisible, count, false);
-      EXPECT_LT(visible.variance[1], uniform.variance[1]) << count;
-    }
-    // Of single wavelengths, in luminance, to less than half.
-    EXPECT_LT(estimate(light, WavelengthSampling::kVisible, 1, false).variance[1],
-              0.5 * estimate(light, WavelengthSampling::kUniform, 1, false).variance[1]);
-  }
-}
-
 TEST(TerminateSecondary, OnlyTheFirstCountsAndOnce) {
-  auto w = drawn(WavelengthSampling::kUniform, 3, 4, 5);
+  auto w = drawn_wavelengths(WavelengthSampling::kUniform, 3, 4, 5);
   const float density = w.density.at(0, 0);
   const std::uint8_t hit[] = {1, 0, 1};
   ASSERT_TRUE(terminate_secondary(w, hit));
@@ -287,23 +86,138 @@ TEST(TerminateSecondary, OnlyTheFirstCountsAndOnce) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(xyz.at(i, 1)));
 }
 
-TEST(ResponseCurves, AnyThreeWillDo) {
-  const auto box = *PiecewiseLinearSpectrum::from_samples(std::array{500.0, 600.0}, std::array{1.0, 1.0});
-  const auto curves =
-      *ResponseCurves::create({box, ConstantSpectrum(1), *BlackbodySpectrum::create(5000)}, {2, 0.5, 1e-9});
-  auto w = drawn(WavelengthSampling::kUniform, 10000, 8, 6);
-  auto radiance = *WavelengthLanes::create(10000, 8);
-  ASSERT_TRUE(sample(ConstantSpectrum(3), w.lambda_nm.view(), radiance.span()));
-  auto rgb = *ColorLanes::create(10000);
-  ASSERT_TRUE(project(curves, radiance.view(), w, rgb.span()));
-  double sums[2] = {};
-  for (std::size_t i = 0; i < 10000; ++i) {
-    sums[0] += rgb.at(i, 0) / 10000.0;
-    sums[1] += rgb.at(i, 1) / 10000.0;
+TEST(SampleWavelengths, WhatReachesExactlyOneStartsAgain) {
+  auto u = *ScalarLanes::create(2);
+  u[0] = 0.5F;
+  u[1] = 0.75F;
+  auto w = *SampledWavelengths::create(2, 4);
+  ASSERT_TRUE(sample_wavelengths(WavelengthSampling::kUniform, u.view(), w, 400, 720));
+  const float want[2][4] = {{560, 640, 400, 480}, {640, 400, 480, 560}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(w.lambda_nm.at(i, k), want[i][k]) << i << " " << k;
   }
-  // The box's own edges are a nanometre wide in the table.
-  EXPECT_NEAR(sums[0], 2 * 3 * 101, 12);
-  EXPECT_NEAR(sums[1], 0.5 * 3 * 470, 1e-2);
+}
+
+TEST(SampleWavelengths, VisibleOnesFollowTheirDensityOverAnyRange) {
+  constexpr std::size_t kLanes = 4096;
+  auto u = *ScalarLanes::create(kLanes);
+  for (std::size_t i = 0; i < kLanes; ++i) u[i] = (static_cast<float>(i) + 0.5F) / kLanes;
+  for (const auto& [first, last] :
+       {std::pair{400.0, 700.0}, {360.0, 500.0}, {600.0, 1000.0}, {538.0, 538.5}, {1.0, 10.0}}) {
+    auto w = *SampledWavelengths::create(kLanes, 1);
+    ASSERT_TRUE(sample_wavelengths(WavelengthSampling::kVisible, u.view(), w, first, last));
+    const auto share = [](double nm) { return std::tanh(0.0072 * (nm - 538)); };
+    const double whole = share(last) - share(first);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double nm = w.lambda_nm.at(i, 0);
+      ASSERT_GE(nm, first - 1e-4);
+      ASSERT_LE(nm, last + 1e-4);
+      const double c = std::cosh(0.0072 * (nm - 538));
+      ASSERT_NEAR(w.density.at(i, 0) * whole * c * c / 0.0072, 1, 1e-5) << first << " to " << last;
+      // The share below it is the random number; a wavelength's rounding is 2^-15 nm.
+      ASSERT_NEAR((share(nm) - share(first)) / whole, u[i], 1e-6 + 6.2e-5 * w.density.at(i, 0))
+          << first << " to " << last;
+    }
+  }
+}
+
+TEST(SampleWavelengths, VisibleOnesOverInfraredRangesAreInRangeWithDensitiesThatAddUp) {
+  for (const auto& [first, last] : {std::pair{2500.0, 4000.0}, {3000.0, 5000.0}, {8000.0, 14000.0}}) {
+    constexpr std::size_t kLanes = 4096;
+    auto u = *ScalarLanes::create(kLanes);
+    for (std::size_t i = 0; i < kLanes; ++i) u[i] = static_cast<float>(i) / kLanes;
+    auto w = *SampledWavelengths::create(kLanes, 1);
+    if (!sample_wavelengths(WavelengthSampling::kVisible, u.view(), w, first, last)) continue;  // may refuse
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double nm = w.lambda_nm.at(i, 0);
+      const double density = w.density.at(i, 0);
+      // sech^2 over the difference of two tanh, in a form where nothing cancels; in logarithms.
+      const auto log_cosh = [](double x) {
+        return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x))) - std::log(2);
+      };
+      const double a = 0.0072 * (first - 538);
+      const double b = 0.0072 * (last - 538);
+      const double x = 0.0072 * (nm - 538);
+      const double log_sinh = (b - a) + std::log1p(-std::exp(-2 * (b - a))) - std::log(2);
+      const double want = 0.0072 * std::exp(log_cosh(a) + log_cosh(b) - log_sinh - 2 * log_cosh(x));
+      if (!(nm >= first - 1e-3 && nm <= last + 1e-3 && std::abs(density / want - 1) < 1e-4)) ++bad;
+    }
+    EXPECT_EQ(bad, 0U) << first << " to " << last;
+  }
+}
+
+TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCalls) {
+  const Spectrum spectra[] = {
+      ConstantSpectrum(0.3),
+      PiecewiseLinearSpectrum(*illuminant("FL11")),
+      *DenselySampledSpectrum::from(*BlackbodySpectrum::create(4000)),
+      *BlackbodySpectrum::create(6500),
+      *BlackbodySpectrum::create(1e9),
+      *GaussianSumSpectrum::from_lobes({{1, 500, 1e-300, 2}, {-3, 600, 1e-3, 1e5}}),
+      *UpsampledSpectrum::from_rgb(*Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands()),
+                                   {0.9, 0.4, 0.1})};
+  const auto curves = *ResponseCurves::of_observer();
+  const float odd_u[] = {0, 1 - 0x1p-24F, 1, -1, kNan, kInf, -kInf, kTiny, 0.5F};
+  const float odd[] = {0, -0.0F, kInf, -kInf, kNan, -1, kTiny, kMost, 360, 830, 829.99994F};
+  for (const std::size_t lanes : {0U, 1U, 63U, 64U, 65U}) {
+    for (const std::size_t count : {1U, 3U, 64U}) {
+      std::vector<float> want;
+      for (const std::string& isa : available_isas()) {
+        for (const int threads : {1, 3}) {
+          ASSERT_TRUE(force_isa(isa));
+          Execution execution;
+          execution.threads = threads;
+          std::mt19937 random(static_cast<std::uint32_t>(100 * lanes + count));
+          std::uniform_real_distribution<float> unit(0, 1);
+          auto u = *ScalarLanes::create(lanes);
+          for (std::size_t i = 0; i < lanes; ++i)
+            u[i] = i % 5 == 0 ? odd_u[random() % std::size(odd_u)] : unit(random);
+          std::vector<float> got;
+          auto w = *SampledWavelengths::create(lanes, count);
+          auto radiance = *WavelengthLanes::create(lanes, count);
+          auto color = *ColorLanes::create(lanes);
+          for (const auto sampling : {WavelengthSampling::kUniform, WavelengthSampling::kVisible}) {
+            ASSERT_TRUE(sample_wavelengths(sampling, u.view(), w, 360, 830, execution));
+            for (std::size_t k = 0; k < count; ++k) {
+              for (std::size_t i = 0; i < lanes; ++i) {
+                got.push_back(w.lambda_nm.at(i, k));
+                got.push_back(w.density.at(i, k));
+                if (random() % 7 == 0) w.density.at(i, k) = odd[random() % std::size(odd)];
+                if (random() % 9 == 0) w.lambda_nm.at(i, k) = odd[random() % std::size(odd)];
+              }
+            }
+            for (const Spectrum& s : spectra) {
+              ASSERT_TRUE(sample(s, w.lambda_nm.view(), radiance.span(), execution));
+              ASSERT_TRUE(project(curves, radiance.view(), w, color.span(), execution));
+              for (std::size_t i = 0; i < lanes; ++i) {
+                for (std::size_t k = 0; k < count; ++k) got.push_back(radiance.at(i, k));
+                for (std::size_t c = 0; c < 3; ++c) got.push_back(color.at(i, c));
+              }
+            }
+          }
+          if (want.empty()) want = got;
+          ASSERT_EQ(want.size(), got.size());
+          for (std::size_t i = 0; i < want.size(); ++i)
+            ASSERT_TRUE(same_bits(want[i], got[i])) << isa << " " << i;
+        }
+      }
+      ASSERT_TRUE(force_isa(""));
+    }
+  }
+}
+
+TEST(TerminateSecondary, OfOneWavelengthOrOfADeadFirstOneChangesNothing) {
+  auto one = *SampledWavelengths::create(3, 1);
+  for (std::size_t i = 0; i < 3; ++i) one.density.at(i, 0) = 2;
+  ASSERT_TRUE(terminate_secondary(one));
+  ASSERT_TRUE(terminate_secondary(one));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one.density.at(i, 0), 2);
+  auto two = *SampledWavelengths::create(1, 2);
+  two.density.at(0, 1) = 4;
+  ASSERT_TRUE(terminate_secondary(two));
+  EXPECT_EQ(two.density.at(0, 0), 0);
+  EXPECT_EQ(two.density.at(0, 1), 0);
 }
 
 }  // namespace

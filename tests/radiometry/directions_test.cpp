@@ -300,5 +300,17 @@ TEST(Directions, RandomDirectionsInATriangleAreItsShareOfTheSphere) {
   EXPECT_NEAR(static_cast<double>(inside) / kTries, share, 4 * std::sqrt(share / kTries));
 }
 
+TEST(SphericalTheta, IsRightForAnyLength) {
+  for (const double s : {5e-324, 1.0, 1e200, 1.7e308}) {
+    EXPECT_NEAR(spherical_theta({s, s, s}), std::atan(std::numbers::sqrt2), 1e-15) << s;
+  }
+}
+
+TEST(SolidAngleOfRectangle, IsRightInAnyUnit) {
+  for (const double s : {1e-200, 1.0, 1e200}) {
+    EXPECT_NEAR(solid_angle_of_rectangle(-s, s, -s, s, s), 2 * std::numbers::pi / 3, 4e-15) << s;
+  }
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -56,7 +56,7 @@ ColorLanes drawn_cube(std::size_t lanes) {
   return rgb;
 }
 
-RC_GTEST_PROP(LightLaws, ReflectancesOfTheCubeAreFromZeroToOne, ()) {
+RC_GTEST_PROP(EnergyConservation, ReflectancesOfTheCubeAreFromZeroToOne, ()) {
   const auto& upsampler =
       upsampler_for(drawn_exact(), Quantity::kReflectance, drawn_bands(), drawn_negative());
   const auto [least, greatest] = extremes(upsampled(upsampler, drawn_cube(drawn_lanes())));
@@ -65,7 +65,7 @@ RC_GTEST_PROP(LightLaws, ReflectancesOfTheCubeAreFromZeroToOne, ()) {
   RC_ASSERT(greatest <= 1.0F);
 }
 
-RC_GTEST_PROP(LightLaws, NoBounceGainsLuminanceUnderAnyLight, ()) {
+RC_GTEST_PROP(EnergyConservation, NoBounceGainsLuminanceUnderAnyLight, ()) {
   // Exactly: a rounded product with what is not above 1 is not above the other factor, and neither are
   // rounded sums of such.
   const Bands bands = drawn_bands();
@@ -90,7 +90,7 @@ RC_GTEST_PROP(LightLaws, NoBounceGainsLuminanceUnderAnyLight, ()) {
   for (const ColorLanes& one : alone) RC_ASSERT(none_smaller(one, before));
 }
 
-RC_GTEST_PROP(LightLaws, WhiteTakesNothingHoweverOftenItIsMet, ()) {
+RC_GTEST_PROP(EnergyConservation, WhiteTakesNothingHoweverOftenItIsMet, ()) {
   const Bands bands = drawn_bands();
   const std::size_t lanes = drawn_lanes();
   const auto light = lit(bands, drawn_light(), lanes);
@@ -101,7 +101,7 @@ RC_GTEST_PROP(LightLaws, WhiteTakesNothingHoweverOftenItIsMet, ()) {
   }
 }
 
-RC_GTEST_PROP(LightLaws, WhiteHasTheWhitesColourUnderEveryLight, ()) {
+RC_GTEST_PROP(EnergyConservation, WhiteHasTheWhitesColourUnderEveryLight, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
@@ -144,7 +144,7 @@ std::pair<ColorLanes, ColorLanes> drawn_greys(std::size_t lanes) {
   return {std::move(dark), std::move(light)};
 }
 
-RC_GTEST_PROP(LightLaws, LighterGreysHaveNoSmallerSamplesInMixtures, ()) {
+RC_GTEST_PROP(EnergyConservation, LighterGreysHaveNoSmallerSamplesInMixtures, ()) {
   const auto& upsampler = upsampler_for(drawn_mixture(), drawn_quantity(), drawn_bands());
   const auto [dark, light] = drawn_greys(drawn_lanes());
   const auto low = upsampled(upsampler, dark);
@@ -156,7 +156,7 @@ RC_GTEST_PROP(LightLaws, LighterGreysHaveNoSmallerSamplesInMixtures, ()) {
   RC_ASSERT(fall == 0.0F);
 }
 
-RC_GTEST_PROP(LightLaws, LighterGreysHaveNoSmallerSamplesButRoundingInSigmoids, ()) {
+RC_GTEST_PROP(EnergyConservation, LighterGreysHaveNoSmallerSamplesButRoundingInSigmoids, ()) {
   const Quantity quantity = drawn_quantity();
   const auto& upsampler = upsampler_for(Method::kSigmoid, quantity, drawn_bands());
   const auto [dark, light] = drawn_greys(drawn_lanes());
@@ -178,7 +178,7 @@ RC_GTEST_PROP(LightLaws, LighterGreysHaveNoSmallerSamplesButRoundingInSigmoids, 
   RC_ASSERT(worst.ratio() <= 1.0);
 }
 
-RC_GTEST_PROP(LightLaws, LargerColoursHaveNoLessLuminance, ()) {
+RC_GTEST_PROP(EnergyConservation, LargerColoursHaveNoLessLuminance, ()) {
   const auto& upsampler = upsampler_for(drawn_exact(), Quantity::kReflectance, drawn_bands());
   const std::size_t lanes = drawn_lanes();
   const auto dark = drawn_colours(lanes, Steps(drawn_random(), 0, 1, 24));
@@ -196,7 +196,7 @@ RC_GTEST_PROP(LightLaws, LargerColoursHaveNoLessLuminance, ()) {
   RC_ASSERT(fall <= 2e-6);
 }
 
-RC_GTEST_PROP(LightLaws, MoreInEveryBandIsNoDarker, ()) {
+RC_GTEST_PROP(EnergyConservation, MoreInEveryBandIsNoDarker, ()) {
   // Exactly, of any sign: products with what is not negative, and sums, round to no less where they are no
   // less.
   const Bands bands = drawn_bands();
@@ -218,7 +218,7 @@ RC_GTEST_PROP(LightLaws, MoreInEveryBandIsNoDarker, ()) {
   RC_ASSERT(same);
 }
 
-RC_GTEST_PROP(LightLaws, SpectraThatAreNotNegativeHaveNoNegativeColour, ()) {
+RC_GTEST_PROP(EnergyConservation, SpectraThatAreNotNegativeHaveNoNegativeColour, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   ArbitraryFloat wild(drawn_random());
@@ -230,7 +230,7 @@ RC_GTEST_PROP(LightLaws, SpectraThatAreNotNegativeHaveNoNegativeColour, ()) {
   RC_ASSERT(none_smaller(xyz, *ColorLanes::create(xyz.lanes())));
 }
 
-RC_GTEST_PROP(LightLaws, GreysRiseInLightnessAndInDistance, ()) {
+RC_GTEST_PROP(EnergyConservation, GreysRiseInLightnessAndInDistance, ()) {
   // Of a white that is 1 throughout, so that greys have no chroma at all. Their difference is the lightness'
   // over 1 + 0.015 t^2 / sqrt(20 + t^2), t being the mean less 50, whose slope is below 0.0164: a light that
   // goes away on one side always gets farther.

@@ -306,5 +306,27 @@ TEST(Irradiance, IsRadianceTimesTheProjectedSolidAngleInUnitsThatFit) {
   static_assert(std::is_same_v<decltype(Luminance(1) * solid_angle), Illuminance>);
 }
 
+TEST(ProjectedSolidAngleOverCorner, IsRightForAnyFiniteSides) {
+  const double want = projected_solid_angle_over_corner(1, 1, 1)->value();
+  EXPECT_NEAR(projected_solid_angle_over_corner(1.7e308, 1.7e308, 1.7e308)->value(), want, 1e-15);
+}
+
+TEST(ProjectedSolidAngle, OfADiskNearTheReceiversPlaneIsWithinTheBound) {
+  for (const double e : {1.0, 1e-3, 1e-6}) {
+    // The normal (3, 0, 4) / 5 is no number of doubles, the angle to a plane at 5 e is.
+    const Vector3 centre = {4000 + 3 * e, 0, -3000 + 4 * e};
+    const long double h = (3.0L * centre.x + 4.0L * centre.z) / 5;
+    const long double aside = (4.0L * centre.x - 3.0L * centre.z) / 5;
+    const long double r = 1000;
+    const long double a = (aside - r) * (aside + r) + h * h;
+    const long double b = hypotl(aside - r, h) * hypotl(aside + r, h);
+    const long double want = std::numbers::pi_v<long double> / 2 * (4 * r * r * h * h / b / (a + b));
+    const auto got = projected_solid_angle(DiskEmitter{centre, {-3, 0, -4}, 1000}, Receiver{{}, {3, 0, 4}});
+    ASSERT_TRUE(got);
+    EXPECT_NEAR(static_cast<double>(got->value() / want), 1, 1e-14 + 1e-12 / e)
+        << e;  // 5000 m of 1e-16, twice
+  }
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -277,5 +277,12 @@ TEST(Photons, OfABlackBodyAreCountedByZetaOfThree) {
   EXPECT_NEAR(got / want, 1, 1e-4);
 }
 
+TEST(PhotonRate, OfABlackBodyOverAVeryWideRangeIsTheLaws) {
+  // 4 zeta(3) c (k T / (h c))^3.
+  const double kt = 1.380649e-23 * 6500 / (6.62607015e-34 * 299792458.0);
+  const double want = 4 * 1.2020569031595942 * 299792458.0 * kt * kt * kt;
+  EXPECT_NEAR(photon_rate(*BlackbodySpectrum::create(6500), 1, 1e12)->value() / want, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace spectile::test

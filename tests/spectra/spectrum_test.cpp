@@ -3,19 +3,11 @@
 #include <numbers>
 #include <spectile/spectra/spectrum.hpp>
 
+#include "tests/spectra/spectra_support.hpp"
 #include "tests/support/lanes.hpp"
 
 namespace spectile::test {
 namespace {
-
-/// A midpoint sum: slow, and nothing like what the library does.
-template <class Function>
-double riemann(const Function& f, double first, double last, int steps = 400000) {
-  double sum = 0;
-  const double step = (last - first) / steps;
-  for (int i = 0; i < steps; ++i) sum += f(first + (i + 0.5) * step);
-  return sum * step;
-}
 
 PiecewiseLinearSpectrum triangle() {
   const double nm[] = {500, 550, 650};
@@ -110,131 +102,6 @@ TEST(DenselySampledSpectrum, RangesWithoutALengthAndValuesThatAreNoneAreErrors) 
   EXPECT_EQ(bad.error().message, "the value at 401 nm is nan; it must be finite");
 }
 
-TEST(BlackbodySpectrum, HasPlancksValues) {
-  // From the law with CODATA's radiation constants, worked out by hand to eight digits: 2 h c^2 =
-  // 1.191042972e-16 W m^2 sr^-1, h c / k = 1.438776877e-2 m K.
-  const auto s = *BlackbodySpectrum::create(6500);
-  const double lambda = 500e-9;
-  const double want =
-      1.191042972e-16 / std::pow(lambda, 5) / (std::exp(1.438776877e-2 / lambda / 6500) - 1) * 1e-9;
-  EXPECT_NEAR(s(500) / want, 1, 1e-8);
-  EXPECT_EQ(s(0), 0);
-  EXPECT_EQ(s(-500), 0);
-  EXPECT_EQ(s(1e-300), 0);
-  EXPECT_EQ(s(std::numeric_limits<double>::infinity()), 0);
-}
-
-TEST(BlackbodySpectrum, ObeysWienAndStefanBoltzmann) {
-  for (const double t : {100.0, 1000.0, 2856.0, 6504.0, 25000.0, 1e6}) {
-    const auto s = *BlackbodySpectrum::create(t);
-    const double peak_nm = 2.897771955e-3 / t * 1e9;  // CODATA 2018
-    EXPECT_NEAR(s(peak_nm) / s.max_value(), 1, 1e-12);
-    EXPECT_LT(s(peak_nm * 1.001), s.max_value());
-    EXPECT_LT(s(peak_nm * 0.999), s.max_value());
-    const double whole = s.integral(0, std::numeric_limits<double>::infinity());
-    EXPECT_NEAR(std::numbers::pi * whole / (5.670374419e-8 * std::pow(t, 4)), 1, 1e-9) << t;  // CODATA 2018
-    // Both ways of integrating agree, and they add up.
-    const double split = 2.5 * peak_nm;
-    EXPECT_NEAR((s.integral(0, split) + s.integral(split, 1e12 * peak_nm)) / whole, 1, 1e-12) << t;
-    double pieces = 0;
-    for (double nm = peak_nm; nm < 20 * peak_nm; nm *= 1.25)
-      pieces += s.integral(nm, std::min(1.25 * nm, 20 * peak_nm));
-    EXPECT_NEAR(pieces / s.integral(peak_nm, 20 * peak_nm), 1, 1e-11) << t;
-  }
-}
-
-TEST(BlackbodySpectrum, NormalisedIsOneAtItsMaximum) {
-  const auto s = *BlackbodySpectrum::create(3200, BlackbodySpectrum::Scale::kNormalized);
-  EXPECT_EQ(s.max_value(), 1);
-  EXPECT_NEAR(s(2.897771955e6 / 3200), 1, 1e-12);
-  const auto absolute = *BlackbodySpectrum::create(3200);
-  EXPECT_NEAR(s(555) / absolute(555) * absolute.max_value(), 1, 1e-12);
-  EXPECT_NEAR(s.integral(400, 700) / absolute.integral(400, 700) * absolute.max_value(), 1, 1e-12);
-}
-
-TEST(BlackbodySpectrum, TemperaturesThatAreNoneAreErrors) {
-  for (const double t : {0.0, -5.0, 2e9, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_FALSE(BlackbodySpectrum::create(t)) << t;
-  }
-}
-
-TEST(GaussianSumSpectrum, IsTheSumOfItsLobes) {
-  // The fit of Wyman, Sloan and Shirley to the x of the CIE 1931 observer (JCGT 2(2), 2013).
-  const auto x_bar = *GaussianSumSpectrum::from_lobes(
-      {{1.056, 599.8, 37.9, 31.0}, {0.362, 442.0, 16.0, 26.7}, {-0.065, 501.1, 20.4, 26.2}});
-  EXPECT_NEAR(x_bar(599.8), 1.056 - 0.065 * std::exp(-0.5 * std::pow(98.7 / 26.2, 2)), 1e-6);
-  EXPECT_NEAR(x_bar(600), 1.0622, 0.02);  // CIE 1931
-  EXPECT_NEAR(x_bar(440), 0.34828, 0.02);
-  EXPECT_NEAR(x_bar.integral(360, 830), riemann(x_bar, 360, 830), 1e-6);
-  EXPECT_NEAR(x_bar.integral(360, 830), 106.86, 1);
-  EXPECT_NEAR(x_bar.max_value(), 1.056, 1e-3);
-  double most = 0;
-  for (double nm = 360; nm < 830; nm += 0.001) most = std::max(most, x_bar(nm));
-  EXPECT_NEAR(x_bar.max_value() / most, 1, 1e-6);
-}
-
-TEST(GaussianSumSpectrum, TheWholeOfALobeIsItsArea) {
-  const auto s = *GaussianSumSpectrum::from_lobes({{2, 550, 10, 30}});
-  const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_NEAR(s.integral(-inf, inf), 2 * std::sqrt(std::numbers::pi / 2) * 40, 1e-12);
-  EXPECT_NEAR(s.integral(550, inf), 2 * std::sqrt(std::numbers::pi / 2) * 30, 1e-12);
-  EXPECT_EQ(s.max_value(), 2);
-  EXPECT_EQ(s.to_text(), "Gaussian 2 at 550 nm, sigma 10 and 30 nm");
-  EXPECT_FALSE(GaussianSumSpectrum::from_lobes({}));
-  EXPECT_FALSE(GaussianSumSpectrum::from_lobes({{1, 500, 0, 1}}));
-  EXPECT_FALSE(GaussianSumSpectrum::from_lobes({{1, std::nan(""), 1, 1}}));
-}
-
-TEST(UpsampledSpectrum, AtTheCentresItIsWhatTheBatchMakes) {
-  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
-    for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
-      const auto upsampler = *Upsampler::create(method, quantity, Bands());
-      const std::array<double, 3> rgb = {0.8, 0.35, 0.1};
-      const auto s = *UpsampledSpectrum::from_rgb(upsampler, rgb);
-      auto lanes = *ColorLanes::create(1);
-      for (std::size_t k = 0; k < 3; ++k) lanes.at(0, k) = static_cast<float>(rgb[k]);
-      auto batch = *SampledSpectra::create(Bands(), 1);
-      ASSERT_TRUE(upsample_srgb(upsampler, lanes.view(), batch.span()));
-      for (std::size_t b = 0; b < 60; ++b) {
-        const double want = batch.at(0, b);
-        ASSERT_NEAR(s(Bands()[b].centre_nm), want, 2e-6 * std::max(1.0, want)) << to_string(method) << b;
-      }
-      EXPECT_EQ(s(0), s(402.5));
-      EXPECT_EQ(s(5000), s(697.5));
-      EXPECT_NEAR(s.integral(380, 750), riemann(s, 380, 750), 1e-5 * s.integral(380, 750));
-      double most = 0;
-      for (double nm = 402.5; nm <= 697.5; nm += 0.01) most = std::max(most, s(nm));
-      EXPECT_NEAR(s.max_value() / most, 1, 1e-6);
-      EXPECT_FALSE(s.to_text().empty());
-    }
-  }
-}
-
-TEST(UpsampledSpectrum, QuantitiesAreNotConfused) {
-  const auto reflectances = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands());
-  const auto unbounded = *Upsampler::create(Method::kSigmoid, Quantity::kUnbounded, Bands());
-  const auto lights = *Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands());
-  EXPECT_TRUE(rgb_albedo_spectrum(reflectances, {0.5, 0.2, 1}));
-  EXPECT_TRUE(rgb_unbounded_spectrum(unbounded, {5, 0.2, 1}));
-  EXPECT_TRUE(rgb_illuminant_spectrum(lights, {5, 0.2, 1}));
-  EXPECT_FALSE(rgb_albedo_spectrum(reflectances, {1.5, 0.2, 1}));
-  EXPECT_FALSE(rgb_albedo_spectrum(lights, {0.5, 0.2, 1}));
-  EXPECT_FALSE(rgb_unbounded_spectrum(reflectances, {0.5, 0.2, 1}));
-  EXPECT_FALSE(rgb_illuminant_spectrum(unbounded, {0.5, 0.2, 1}));
-  EXPECT_FALSE(rgb_unbounded_spectrum(unbounded, {5, -3, 1}));
-  EXPECT_FALSE(rgb_illuminant_spectrum(lights, {5, std::nan(""), 1}));
-  EXPECT_FALSE(rgb_illuminant_spectrum(lights, {1e300, 0, 1}));
-}
-
-TEST(UpsampledSpectrum, WhiteLightIsItsIlluminantWithLuminanceOne) {
-  const auto lights = *Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, *Bands::parse("360:830:5"));
-  const auto white = *rgb_illuminant_spectrum(lights, {1, 1, 1});
-  const auto d65 = *illuminant("D65");
-  for (const double nm : {400.0, 450.0, 555.0, 620.0}) {
-    EXPECT_NEAR(white(nm) / white(560), d65.at(nm) / d65.at(560), 0.03) << nm;  // averages over 5 nm
-  }
-}
-
 TEST(Spectrum, IsWhicheverDistribution) {
   const Spectrum all[] = {ConstantSpectrum(2), triangle(), *DenselySampledSpectrum::from(triangle()),
                           *BlackbodySpectrum::create(4000),
@@ -280,6 +147,87 @@ TEST(InnerProduct, IsExactForWhatIsLinear) {
   EXPECT_NEAR(inner_product(triangle(), ConstantSpectrum(3), 500, 550), 150, 1e-11);
   EXPECT_EQ(inner_product(triangle(), triangle(), 700, 800), 0);
   EXPECT_EQ(inner_product(triangle(), triangle(), 600, 500), 0);
+}
+
+TEST(InnerProduct, OfABlackBodyOverAVeryWideRangeIsItsIntegral) {
+  const auto s = *BlackbodySpectrum::create(6500);
+  for (const double last : {1e10, 1e11, 1e12, 1e13}) {
+    EXPECT_NEAR(inner_product(ConstantSpectrum(1), s, 1, last) / s.integral(1, last), 1, 1e-9) << last;
+  }
+}
+
+TEST(DenselySampledSpectrum, ItsLastValueIsThatOfTheTable) {
+  EXPECT_EQ((*DenselySampledSpectrum::from_values(500, {1e17, 1}))(501), 1);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 100; ++i) {
+    const double last = unit(random);
+    ASSERT_EQ((*DenselySampledSpectrum::from_values(500, {unit(random), last}))(501), last) << i;
+  }
+}
+
+TEST(DenselySampledSpectrum, FiniteValuesOfAnySizeAreThemselves) {
+  const auto s = *DenselySampledSpectrum::from_values(500, {1.5e308, -1.5e308});
+  EXPECT_EQ(s(500), 1.5e308);
+  EXPECT_EQ(s(500.5), 0);
+}
+
+TEST(DenselySampledSpectrum, TheRangeMayEndAtTheGreatestInt) {
+  EXPECT_EQ(DenselySampledSpectrum::from(ConstantSpectrum(1), 2147483640, 2147483647)->values().size(), 8U);
+  const auto beyond = DenselySampledSpectrum::from_values(2147483647, {1, 2});
+  EXPECT_TRUE(!beyond || beyond->last_nm() > beyond->first_nm());
+}
+
+TEST(PiecewiseLinearSpectrum, MaximumIsTheLargestSample) {
+  const double nm[] = {400, 500, 500, 500, 600};
+  const double v[] = {0, 0, 9, 0, 0};  // the middle of three is neither on the left nor on the right
+  const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);
+  EXPECT_EQ(s(500), 0);
+  EXPECT_EQ(s.max_value(), 9);  // the largest sample, as documented
+}
+
+TEST(InnerProduct, OfTwoGaussiansIsTheClosedForm) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int compared = 0;
+  for (int i = 0; i < 500; ++i) {
+    const double s1 = std::pow(10, -3 + 5 * unit(random));
+    const double s2 = std::pow(10, -3 + 5 * unit(random));
+    const double m1 = 400 + 300 * unit(random);
+    // Every third pair is so close that the product lies in both's tails.
+    const double m2 =
+        i % 3 == 0 ? m1 + (24 * unit(random) - 12) * std::max(s1, s2) : 400 + 300 * unit(random);
+    const double square = s1 * s1 + s2 * s2;
+    const double sigma = s1 * s2 / std::sqrt(square);
+    const double mean = (m1 * s2 * s2 + m2 * s1 * s1) / square;
+    const double want =
+        std::exp(-0.5 * (m1 - m2) * (m1 - m2) / square) * std::sqrt(2 * std::numbers::pi) * sigma;
+    if (want < 1e-280) continue;
+    ++compared;
+    const auto a = *GaussianSumSpectrum::from_lobes({{1, m1, s1, s1}});
+    const auto b = *GaussianSumSpectrum::from_lobes({{1, m2, s2, s2}});
+    const double reach = 60 * (s1 + s2) + 100;
+    ASSERT_NEAR(inner_product(a, b, mean - reach, mean + reach) / want, 1, 1e-9)
+        << a.to_text() << ", " << b.to_text();
+  }
+  EXPECT_GT(compared, 200);
+}
+
+TEST(InnerProduct, SpikesAndLinesAgainstABlackBodyAreItsValueThere) {
+  const auto black = *BlackbodySpectrum::create(6500, BlackbodySpectrum::Scale::kNormalized);
+  for (const double at : {400.0, 555.5, 829.0}) {
+    const double nm[] = {at - 1e-3, at, at + 1e-3};
+    const double v[] = {0, 1, 0};
+    EXPECT_NEAR(inner_product(*PiecewiseLinearSpectrum::from_samples(nm, v), black) / (1e-3 * black(at)), 1,
+                1e-9);
+    const auto line = *GaussianSumSpectrum::from_lobes({{1, at, 0.01, 0.01}});
+    // To second order: half the square of sigma times the curvature.
+    const double curvature = (black(at + 1) - 2 * black(at) + black(at - 1)) / black(at);
+    EXPECT_NEAR(inner_product(line, black) / (0.01 * std::sqrt(2 * std::numbers::pi) * black(at)),
+                1 + 0.5e-4 * curvature, 1e-9);
+    const double one[] = {at};
+    EXPECT_EQ(inner_product(*PiecewiseLinearSpectrum::from_samples(one, std::array{5.0}), black), 0);
+  }
 }
 
 }  // namespace

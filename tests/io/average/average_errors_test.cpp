@@ -8,11 +8,11 @@
 namespace spectile {
 namespace {
 
-using AverageRefusals = test::AverageFiles;
+using AverageErrors = test::AverageFiles;
 using test::kPlain;
 using test::weighted;
 
-TEST_F(AverageRefusals, WholeNumbersMustAgree) {
+TEST_F(AverageErrors, WholeNumbersMustAgree) {
   test::Picture other = render(1);
   other.planes.at("id").set(other.index(30, 25), 77);
   other.planes.at("id").set(other.index(2, 26), 78);
@@ -28,7 +28,7 @@ TEST_F(AverageRefusals, WholeNumbersMustAgree) {
   }
 }
 
-TEST_F(AverageRefusals, ThatDifferAreNamedWithWhatDiffers) {
+TEST_F(AverageErrors, ThatDifferAreNamedWithWhatDiffers) {
   const std::string a = write("a.exr", render(0));
   const auto differs = [&](const std::string& name, test::Picture picture, const std::string& what) {
     const std::string other = write(name, std::move(picture));
@@ -52,7 +52,7 @@ TEST_F(AverageRefusals, ThatDifferAreNamedWithWhatDiffers) {
   differs("typed.exr", typed, "channel \"id\" is float, but that of ");
 }
 
-TEST_F(AverageRefusals, ThatCannotBeAveragedAreErrors) {
+TEST_F(AverageErrors, ThatCannotBeAveragedAreErrors) {
   const std::string a = write("a.exr", render(0));
   expect_error({}, kPlain, ErrorCode::kBadArgument, {"no images"});
   expect_error({a, a}, weighted({1, 2, 3}), ErrorCode::kBadArgument, {"3 weights for 2 images"});
@@ -84,7 +84,7 @@ TEST_F(AverageRefusals, ThatCannotBeAveragedAreErrors) {
                {"chroma.exr: channel \"RY\" is subsampled 2 x 2"});
 }
 
-TEST_F(AverageRefusals, PartsAreCounted) {
+TEST_F(AverageErrors, PartsAreCounted) {
   test::Picture picture = render(0);
   std::vector<Imf::Header> headers(2, picture.header);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -103,7 +103,7 @@ TEST_F(AverageRefusals, PartsAreCounted) {
                {"parts.exr: has 2 parts"});
 }
 
-TEST_F(AverageRefusals, CarryTheFirstOnesAttributesAndTheirOwn) {
+TEST_F(AverageErrors, CarryTheFirstOnesAttributesAndTheirOwn) {
   test::Picture first = render(0);
   first.header.insert("owner", Imf::StringAttribute("me"));
   first.header.insert("spectileAverage", Imf::StringAttribute("an older one"));
@@ -115,7 +115,7 @@ TEST_F(AverageRefusals, CarryTheFirstOnesAttributesAndTheirOwn) {
             "2 images, weights' sum 64.5");
 }
 
-TEST_F(AverageRefusals, StopWhenAskedTo) {
+TEST_F(AverageErrors, StopWhenAskedTo) {
   AverageOptions options;
   options.progress = [](const Progress&) { return false; };
   expect_error(renders(3), options, ErrorCode::kCancelled, {});

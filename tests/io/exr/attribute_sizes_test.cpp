@@ -10,7 +10,7 @@
 namespace spectile {
 namespace {
 
-class ClaimedSizes : public testing::Test {
+class AttributeSizes : public testing::Test {
  protected:
   /// A good file with attributes of the types whose size is their own to say.
   void SetUp() override {
@@ -40,28 +40,28 @@ class ClaimedSizes : public testing::Test {
   std::string good_;
 };
 
-TEST_F(ClaimedSizes, AreBelievedAsFarAsTheFileGoes) {
+TEST_F(AttributeSizes, AreBelievedAsFarAsTheFileGoes) {
   EXPECT_TRUE(inspect_image(path_, std::nullopt, 1));
 }
 
-TEST_F(ClaimedSizes, OfTextsAreRefusedByTheAttributesName) {
+TEST_F(AttributeSizes, OfTextsAreRefusedByTheAttributesName) {
   const std::string name("aText\0string\0", 13);
   EXPECT_THAT(said_of(name, 0, 0x70000000), testing::HasSubstr("attribute aText claims 1879048192 bytes"));
   EXPECT_THAT(said_of(name, 0, 0xFFFFFFFF), testing::HasSubstr("attribute aText claims -1 bytes"));
 }
 
-TEST_F(ClaimedSizes, OfTextsInAListAreRefused) {
+TEST_F(AttributeSizes, OfTextsInAListAreRefused) {
   const std::string name("texts\0stringvector\0", 19);
   EXPECT_THAT(said_of(name, 4, 0x70000000), testing::HasSubstr("attribute texts claims 1879048192 bytes"));
 }
 
-TEST_F(ClaimedSizes, OfPreviewsAreRefused) {
+TEST_F(AttributeSizes, OfPreviewsAreRefused) {
   const std::string name("preview\0preview\0", 16);
   EXPECT_THAT(said_of(name, 4, 20000), testing::HasSubstr("attribute preview claims 160000 bytes"));
   EXPECT_THAT(said_of(name, 4, 0x7FFFFFFF), testing::HasSubstr("attribute preview claims"));
 }
 
-TEST_F(ClaimedSizes, OfUnknownTypesAreRefused) {
+TEST_F(AttributeSizes, OfUnknownTypesAreRefused) {
   std::string bytes = good_;
   const std::string name("aText\0string\0", 13);
   bytes[bytes.find(name) + 6] = 'S';

@@ -51,7 +51,7 @@ bool loads(const std::string& path) {
   return true;
 }
 
-TEST(FilmFileDamage, CutAnywhere) {
+TEST(FilmFileErrors, CutAnywhere) {
   const TempFolder folder;
   const std::string bytes = file_bytes(saved_film(folder));
   std::mt19937 random(1);
@@ -62,7 +62,7 @@ TEST(FilmFileDamage, CutAnywhere) {
   }
 }
 
-TEST(FilmFileDamage, BytesChangedAnywhere) {
+TEST(FilmFileErrors, BytesChangedAnywhere) {
   const TempFolder folder;
   const std::string bytes = file_bytes(saved_film(folder));
   std::mt19937 random(2);
@@ -78,7 +78,7 @@ TEST(FilmFileDamage, BytesChangedAnywhere) {
   }
 }
 
-TEST(FilmFileDamage, LimbsOfAnyBits) {
+TEST(FilmFileErrors, LimbsOfAnyBits) {
   // Sums that no film can have come to: an error, or numbers; no arithmetic beyond the ends of integers.
   for (const bool bands : {false, true}) {
     const TempFolder folder;
@@ -111,7 +111,7 @@ Imf::Header without(const Imf::Header& header, const std::string& name) {
   return out;
 }
 
-TEST(FilmFileDamage, AttributesMissingOrChangedAreNamed) {
+TEST(FilmFileErrors, AttributesMissingOrChangedAreNamed) {
   const TempFolder folder;
   Picture good = read_picture(saved_film(folder));
   std::vector<std::string> names;
@@ -141,7 +141,7 @@ TEST(FilmFileDamage, AttributesMissingOrChangedAreNamed) {
   }
 }
 
-TEST(FilmFileDamage, HugeCountsAreTakenOrRefusedButDoNotOverflow) {
+TEST(FilmFileErrors, HugeCountsAreTakenOrRefusedButDoNotOverflow) {
   const TempFolder folder;
   Picture bad = read_picture(saved_film(folder));
   const std::string most = "18446744073709551615";
@@ -150,7 +150,7 @@ TEST(FilmFileDamage, HugeCountsAreTakenOrRefusedButDoNotOverflow) {
   loads(folder / "bad.exr");
 }
 
-TEST(FilmFileDamage, ChannelsMissingOrOfOtherKinds) {
+TEST(FilmFileErrors, ChannelsMissingOrOfOtherKinds) {
   const TempFolder folder;
   const Picture good = read_picture(saved_film(folder));
   for (const auto& [name, plane] : good.planes) {
@@ -169,7 +169,7 @@ TEST(FilmFileDamage, ChannelsMissingOrOfOtherKinds) {
   }
 }
 
-TEST(FilmFileDamage, WindowsThatAreNotTheFilms) {
+TEST(FilmFileErrors, WindowsThatAreNotTheFilms) {
   const TempFolder folder;
   const Picture good = read_picture(saved_film(folder));
   const auto with = [&](Imath::Box2i data, Imath::Box2i display) {
@@ -203,7 +203,7 @@ TEST(FilmFileDamage, WindowsThatAreNotTheFilms) {
   EXPECT_FALSE(with(data, {{-7, -3}, display.max})) << "a display window that does not begin at 0, 0";
 }
 
-TEST(FilmFileDamage, OtherImagesAreNoFilms) {
+TEST(FilmFileErrors, OtherImagesAreNoFilms) {
   const TempFolder folder;
   EXPECT_FALSE(loads(folder / "there is none.exr"));
   EXPECT_FALSE(loads(folder.path().string()));

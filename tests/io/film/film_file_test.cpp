@@ -48,7 +48,7 @@ void fill(Film& film, std::uint32_t seed) {
   }
 }
 
-TEST(FilmFileLaws, EveryCombinationOfOptionsComesBack) {
+TEST(FilmFile, EveryCombinationOfOptionsComesBack) {
   const TempFolder folder;
   const std::string path = folder / "film.exr";
   const std::string again = folder / "again.exr";
@@ -100,7 +100,7 @@ TEST(FilmFileLaws, EveryCombinationOfOptionsComesBack) {
   }
 }
 
-TEST(FilmFileLaws, AnyCompressionKeepsEverySum) {
+TEST(FilmFile, AnyCompressionKeepsEverySum) {
   const TempFolder folder;
   FilmOptions o = small_film();
   o.spectral = true;
@@ -121,7 +121,7 @@ TEST(FilmFileLaws, AnyCompressionKeepsEverySum) {
   }
 }
 
-TEST(FilmFileLaws, ProgressIsAnyText) {
+TEST(FilmFile, ProgressIsAnyText) {
   const TempFolder folder;
   Film film = *Film::create(small_film());
   fill(film, 6);
@@ -138,7 +138,7 @@ TEST(FilmFileLaws, ProgressIsAnyText) {
   EXPECT_FALSE(save_film(film, folder / "film.exr", std::string("before\0after", 12)));
 }
 
-TEST(FilmFileLaws, SensorsOfAnyNameComeBack) {
+TEST(FilmFile, SensorsOfAnyNameComeBack) {
   const TempFolder folder;
   for (const std::string& name : {std::string("none"), std::string(), std::string("cie1931"),
                                   std::string("a b\n"), std::string("{}")}) {
@@ -156,7 +156,7 @@ TEST(FilmFileLaws, SensorsOfAnyNameComeBack) {
   }
 }
 
-TEST(FilmFileLaws, SensorsThatSeeLittleOfTheBandsComeBack) {
+TEST(FilmFile, SensorsThatSeeLittleOfTheBandsComeBack) {
   const TempFolder folder;
   for (const char* bands :
        {"600:700:50", "830:900:35", "500:501:1", "400:700:300", "380:390:5", "360:830:235"}) {
@@ -177,7 +177,7 @@ TEST(FilmFileLaws, SensorsThatSeeLittleOfTheBandsComeBack) {
   }
 }
 
-TEST(FilmFileLaws, TheOptionsThatComeBackMakeTheSameFilmOfNamedSensors) {
+TEST(FilmFile, TheOptionsThatComeBackMakeTheSameFilmOfNamedSensors) {
   const TempFolder folder;
   FilmOptions o = small_film();
   o.sensors.push_back({"canon-eos-5d-mkii", *Sensor::named("canon-eos-5d-mkii")});
@@ -190,7 +190,7 @@ TEST(FilmFileLaws, TheOptionsThatComeBackMakeTheSameFilmOfNamedSensors) {
   EXPECT_TRUE(merged) << merged.error().message;
 }
 
-TEST(FilmFileLaws, EqualFilmsAreEqualFiles) {
+TEST(FilmFile, EqualFilmsAreEqualFiles) {
   // Weights of 0, and weights that cancel, touch a tile and leave nothing there.
   const TempFolder folder;
   FilmOptions o = small_film();
@@ -214,7 +214,7 @@ TEST(FilmFileLaws, EqualFilmsAreEqualFiles) {
   EXPECT_EQ(bytes_of(folder / "a.exr"), bytes_of(folder / "again.exr"));
 }
 
-TEST(FilmFileLaws, EmptyFilmsAndSinglePixelsComeBack) {
+TEST(FilmFile, EmptyFilmsAndSinglePixelsComeBack) {
   const TempFolder folder;
   for (const auto& crop : {PixelWindow{0, 0, 1, 1}, PixelWindow{(1 << 18) - 1, 0, 1 << 18, 1},
                            PixelWindow{1000, 0, 1033, 1}, PixelWindow{0, 0, 1 << 18, 1}}) {
@@ -238,7 +238,7 @@ TEST(FilmFileLaws, EmptyFilmsAndSinglePixelsComeBack) {
   }
 }
 
-TEST(FilmFileLaws, ManyBandsComeBack) {
+TEST(FilmFile, ManyBandsComeBack) {
   const TempFolder folder;
   for (const std::size_t count : {300U, 2000U, 4096U}) {
     FilmOptions o = small_film();
@@ -266,7 +266,7 @@ TEST(FilmFileLaws, ManyBandsComeBack) {
   }
 }
 
-TEST(FilmFileLaws, SavingWhereOneMayNotIsAnError) {
+TEST(FilmFile, SavingWhereOneMayNotIsAnError) {
   const TempFolder folder;
   Film film = *Film::create(small_film());
   fill(film, 1);

@@ -182,9 +182,9 @@ TEST(Settings, WhatChangesNoBitIsNotInThem) {
   EXPECT_THAT(text, HasSubstr("; upsample; pixel=half; compression=zip:1; "));
 }
 
-class Settled : public testing::Test {
+class SettingsUpToDate : public testing::Test {
  protected:
-  Settled() {
+  SettingsUpToDate() {
     Picture picture = test::blank(40, 300);
     test::add_rgb_noise(picture, Imf::HALF);
     picture.header.insert("spectileSettings", Imf::StringAttribute("of another image"));
@@ -210,7 +210,7 @@ class Settled : public testing::Test {
   const std::string settings_ = settings_text(test::kUpsample);
 };
 
-TEST_F(Settled, EveryConversionWritesItsOwn) {
+TEST_F(SettingsUpToDate, EveryConversionWritesItsOwn) {
   ASSERT_TRUE(upsample_image(input_, spectral_, test::kUpsample));
   EXPECT_EQ(*settings_of(spectral_), settings_);
   EXPECT_EQ(*settings_of(input_), "of another image");
@@ -232,7 +232,7 @@ TEST_F(Settled, EveryConversionWritesItsOwn) {
   EXPECT_EQ(*settings_of(folder_ / "expanded.exr"), settings_text(expand));
 }
 
-TEST_F(Settled, DoNotPassToWhatIsNoConversion) {
+TEST_F(SettingsUpToDate, DoNotPassToWhatIsNoConversion) {
   const auto rgb = read_rgb_image(input_);
   ASSERT_TRUE(write_rgb_image(folder_ / "plain.exr", rgb->rgb.view(), rgb->width, rgb->height));
   EXPECT_EQ(*settings_of(folder_ / "plain.exr"), "");
@@ -241,7 +241,7 @@ TEST_F(Settled, DoNotPassToWhatIsNoConversion) {
   EXPECT_EQ(settings_of(folder_ / "none.exr").error().code, ErrorCode::kBadFile);
 }
 
-TEST_F(Settled, AnOutputIsUpToDateUntilWhatMadeItChanges) {
+TEST_F(SettingsUpToDate, AnOutputIsUpToDateUntilWhatMadeItChanges) {
   EXPECT_FALSE(fresh(spectral_, {input_}, settings_));
   ASSERT_TRUE(upsample_image(input_, spectral_, test::kUpsample));
   EXPECT_TRUE(fresh(spectral_, {input_}, settings_));
@@ -257,7 +257,7 @@ TEST_F(Settled, AnOutputIsUpToDateUntilWhatMadeItChanges) {
   EXPECT_FALSE(fresh(folder_.path().string(), {input_}, settings_));
 }
 
-TEST_F(Settled, TimesAreComparedToTheNanosecond) {
+TEST_F(SettingsUpToDate, TimesAreComparedToTheNanosecond) {
   ASSERT_TRUE(upsample_image(input_, spectral_, test::kUpsample));
   set_time(input_, 100, 500);
   set_time(spectral_, 100, 500);
@@ -272,7 +272,7 @@ TEST_F(Settled, TimesAreComparedToTheNanosecond) {
   EXPECT_TRUE(fresh(spectral_, {input_}, settings_));
 }
 
-TEST_F(Settled, AnInputThatChangesWhileItIsReadIsAnError) {
+TEST_F(SettingsUpToDate, AnInputThatChangesWhileItIsReadIsAnError) {
   Picture picture = test::blank(20, 3000);
   test::add_rgb_noise(picture, Imf::HALF);
   test::write_scanlines(folder_ / "long.exr", picture);
@@ -299,7 +299,7 @@ TEST_F(Settled, AnInputThatChangesWhileItIsReadIsAnError) {
   EXPECT_TRUE(upsample_image(folder_ / "long.exr", spectral_, options));
 }
 
-TEST_F(Settled, AMaskThatChangesWhileItIsReadIsAnError) {
+TEST_F(SettingsUpToDate, AMaskThatChangesWhileItIsReadIsAnError) {
   Picture picture = test::blank(20, 3000);
   test::add_rgb_noise(picture, Imf::HALF);
   test::write_scanlines(folder_ / "long.exr", picture);
@@ -319,7 +319,7 @@ TEST_F(Settled, AMaskThatChangesWhileItIsReadIsAnError) {
   EXPECT_FALSE(std::filesystem::exists(spectral_));
 }
 
-TEST_F(Settled, AFileCutShortIsNotUpToDate) {
+TEST_F(SettingsUpToDate, AFileCutShortIsNotUpToDate) {
   ASSERT_TRUE(upsample_image(input_, spectral_, test::kUpsample));
   const auto size = std::filesystem::file_size(spectral_);
   ASSERT_TRUE(fresh(spectral_, {input_}, settings_));

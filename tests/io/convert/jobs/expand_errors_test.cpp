@@ -16,10 +16,10 @@ namespace {
 
 using testing::HasSubstr;
 
-class ExpandDamage : public testing::Test {
+class ExpandErrors : public testing::Test {
  protected:
   /// A compact image of a sigmoid for light, made for a lamp, with all attributes there can be.
-  ExpandDamage() {
+  ExpandErrors() {
     UpsampleImageOptions options = test::options_of({Method::kSigmoid, Quantity::kIlluminant});
     options.light = NamedLight{"lamp", *illuminant("A")};
     options.negative = Negative::kKeep;
@@ -70,7 +70,7 @@ class ExpandDamage : public testing::Test {
   test::Picture good_;
 };
 
-TEST_F(ExpandDamage, MissingAttributeIsNamed) {
+TEST_F(ExpandErrors, MissingAttributeIsNamed) {
   for (const char* name : {"spectileCoefficients", "spectileMethod", "spectileQuantity", "spectileBands",
                            "spectileObserver", "spectileLight", "spectileLightSamples"}) {
     test::Picture bad = good_;
@@ -79,7 +79,7 @@ TEST_F(ExpandDamage, MissingAttributeIsNamed) {
   }
 }
 
-TEST_F(ExpandDamage, AttributeOfAnotherTypeIsNamed) {
+TEST_F(ExpandErrors, AttributeOfAnotherTypeIsNamed) {
   for (const char* name :
        {"spectileCoefficients", "spectileMethod", "spectileBands", "spectileLightSamples"}) {
     test::Picture bad = good_;
@@ -89,7 +89,7 @@ TEST_F(ExpandDamage, AttributeOfAnotherTypeIsNamed) {
   }
 }
 
-TEST_F(ExpandDamage, NonsenseInAnAttributeIsNamed) {
+TEST_F(ExpandErrors, NonsenseInAnAttributeIsNamed) {
   const std::string bands = test::text_of(good_.header, "spectileBands");
   const std::string samples = test::text_of(good_.header, "spectileLightSamples");
   std::string too_many;
@@ -129,7 +129,7 @@ TEST_F(ExpandDamage, NonsenseInAnAttributeIsNamed) {
   }
 }
 
-TEST_F(ExpandDamage, AttributesFromWhichNoMethodCanBeMadeAreRefused) {
+TEST_F(ExpandErrors, AttributesFromWhichNoMethodCanBeMadeAreRefused) {
   for (const char* samples : {"500:0 600:0", "500:1e308 600:1e308"}) {
     test::Picture bad = good_;
     set(bad.header, "spectileLightSamples", samples);
@@ -143,7 +143,7 @@ TEST_F(ExpandDamage, AttributesFromWhichNoMethodCanBeMadeAreRefused) {
   expect_refused(bad, "luminance");
 }
 
-TEST_F(ExpandDamage, MissingChannelIsNamed) {
+TEST_F(ExpandErrors, MissingChannelIsNamed) {
   for (const char* name : {"spectile.c0", "spectile.c1", "spectile.c2", "spectile.scale"}) {
     test::Picture bad = good_;
     bad.header.channels() = Imf::ChannelList();
@@ -154,7 +154,7 @@ TEST_F(ExpandDamage, MissingChannelIsNamed) {
   }
 }
 
-TEST_F(ExpandDamage, ChannelThatIsNoCoefficientIsNamed) {
+TEST_F(ExpandErrors, ChannelThatIsNoCoefficientIsNamed) {
   test::Picture whole = good_;
   whole.add("spectile.c1", Imf::UINT, [](int, int) { return 1; });
   expect_refused(whole, "\"spectile.c1\" holds whole numbers");
@@ -167,7 +167,7 @@ TEST_F(ExpandDamage, ChannelThatIsNoCoefficientIsNamed) {
   expect_refused(strange, "\"spectile.scale\" is none of sigmoid's coefficients for reflectance");
 }
 
-TEST_F(ExpandDamage, SubsampledCoefficientsAreRefused) {
+TEST_F(ExpandErrors, SubsampledCoefficientsAreRefused) {
   test::Picture bad = good_;
   bad.header.channels().findChannel("spectile.c2")->xSampling = 3;
   bad.planes.erase("spectile.c2");
@@ -182,7 +182,7 @@ TEST_F(ExpandDamage, SubsampledCoefficientsAreRefused) {
   expect_refused_file("\"spectile.c2\" is subsampled 3 x 1");
 }
 
-TEST_F(ExpandDamage, ImageWithoutCoefficientsIsRefused) {
+TEST_F(ExpandErrors, ImageWithoutCoefficientsIsRefused) {
   const auto report = expand_image(folder_ / "in.exr", folder_ / "out.exr", expand_);
   EXPECT_EQ(test::code_of(report), test::code(ErrorCode::kBadFile));
   EXPECT_THAT(report.error().message, HasSubstr("holds no coefficients"));
@@ -193,7 +193,7 @@ TEST_F(ExpandDamage, ImageWithoutCoefficientsIsRefused) {
   EXPECT_THAT(folder_.names(), testing::ElementsAre("compact.exr", "in.exr"));
 }
 
-TEST_F(ExpandDamage, OtherConversionsOfACompactImagePointToExpansion) {
+TEST_F(ExpandErrors, OtherConversionsOfACompactImagePointToExpansion) {
   const std::string compact = folder_ / "compact.exr";
   for (const Store store : {Store::kSpectra, Store::kCoefficients}) {
     UpsampleImageOptions options;
@@ -208,7 +208,7 @@ TEST_F(ExpandDamage, OtherConversionsOfACompactImagePointToExpansion) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out.exr"));
 }
 
-TEST_F(ExpandDamage, CutFileIsRefused) {
+TEST_F(ExpandErrors, CutFileIsRefused) {
   const std::string bytes = test::file_bytes(folder_ / "compact.exr");
   for (const double share : {0.2, 0.6, 0.95}) {
     test::write_text(folder_ / "bad.exr",
@@ -220,7 +220,7 @@ TEST_F(ExpandDamage, CutFileIsRefused) {
 }
 
 /// Values that no coefficient may have, and where a sample would overflow.
-TEST_F(ExpandDamage, CoefficientsThatAreNotFiniteStopOrBecomeBlack) {
+TEST_F(ExpandErrors, CoefficientsThatAreNotFiniteStopOrBecomeBlack) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   for (const auto& [method, quantity] : {std::pair(Method::kSigmoid, Quantity::kIlluminant),

@@ -14,9 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class ExpandPassing : public testing::Test {
+class ExpandPassThrough : public testing::Test {
  protected:
-  ExpandPassing() {
+  ExpandPassThrough() {
     picture_ = test::every_color(67, 21, {-5, 12});
     picture_.add("A", Imf::HALF, [](int x, int y) { return test::noise(x, y, 7); });
     picture_.add("depth.Z", Imf::FLOAT, [](int x, int y) { return 1e6 * test::noise(x, y, 8); });
@@ -35,7 +35,7 @@ class ExpandPassing : public testing::Test {
   test::Picture picture_;
 };
 
-TEST_F(ExpandPassing, PreviewAlphaAndOtherChannelsAreKeptToTheBit) {
+TEST_F(ExpandPassThrough, PreviewAlphaAndOtherChannelsAreKeptToTheBit) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "out.exr", expand_));
   const test::Picture out = test::read_picture(folder_ / "out.exr");
   for (const auto& [name, plane] : picture_.planes) EXPECT_TRUE(out.planes.at(name) == plane) << name;
@@ -43,7 +43,7 @@ TEST_F(ExpandPassing, PreviewAlphaAndOtherChannelsAreKeptToTheBit) {
   for (const auto& [name, plane] : out.planes) EXPECT_FALSE(name.starts_with("spectile.")) << name;
 }
 
-TEST_F(ExpandPassing, WindowsAndAttributesAreKept) {
+TEST_F(ExpandPassThrough, WindowsAndAttributesAreKept) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "out.exr", expand_));
   const Imf::Header header = test::read_picture(folder_ / "out.exr").header;
   EXPECT_EQ(header.dataWindow(), picture_.header.dataWindow());
@@ -53,7 +53,7 @@ TEST_F(ExpandPassing, WindowsAndAttributesAreKept) {
   EXPECT_EQ(header.typedAttribute<Imf::FloatAttribute>("exposure").value(), 0.1F);
 }
 
-TEST_F(ExpandPassing, AttributesSayWhatTheSpectraAreAndNoMore) {
+TEST_F(ExpandPassThrough, AttributesSayWhatTheSpectraAreAndNoMore) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "out.exr", expand_));
   const Imf::Header header = test::read_picture(folder_ / "out.exr").header;
   EXPECT_EQ(test::text_of(header, "spectralLayoutVersion"), "1.0");
@@ -67,13 +67,13 @@ TEST_F(ExpandPassing, AttributesSayWhatTheSpectraAreAndNoMore) {
   }
 }
 
-TEST_F(ExpandPassing, ExpandedImageIsProjectedLikeAnyOther) {
+TEST_F(ExpandPassThrough, ExpandedImageIsProjectedLikeAnyOther) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "out.exr", expand_));
   ASSERT_TRUE(project_image(folder_ / "out.exr", folder_ / "rgb.exr", test::kProject));
   EXPECT_TRUE(test::read_picture(folder_ / "rgb.exr").planes.at("A") == picture_.planes.at("A"));
 }
 
-TEST_F(ExpandPassing, SubsampledChannelsAreLeftOutAndNamed) {
+TEST_F(ExpandPassThrough, SubsampledChannelsAreLeftOutAndNamed) {
   test::Picture compact = test::read_picture(folder_ / "compact.exr");
   Imf::FrameBuffer frame = compact.frame_buffer();
   compact.header.channels().insert("fog", Imf::Channel(Imf::HALF, 1, 3));
@@ -91,7 +91,7 @@ TEST_F(ExpandPassing, SubsampledChannelsAreLeftOutAndNamed) {
   EXPECT_THAT(report->notes, testing::ElementsAre(HasSubstr("\"fog\" is left out")));
 }
 
-TEST_F(ExpandPassing, PartWithCoefficientsIsFoundAmongOthers) {
+TEST_F(ExpandPassThrough, PartWithCoefficientsIsFoundAmongOthers) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "alone.exr", expand_));
   test::Picture compact = test::read_picture(folder_ / "compact.exr");
   std::vector<Imf::Header> headers = {picture_.header, compact.header};
@@ -114,7 +114,7 @@ TEST_F(ExpandPassing, PartWithCoefficientsIsFoundAmongOthers) {
               test::read_picture(folder_ / "alone.exr").planes);
 }
 
-TEST_F(ExpandPassing, CompressionsButPxr24KeepTheCoefficients) {
+TEST_F(ExpandPassThrough, CompressionsButPxr24KeepTheCoefficients) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "alone.exr", expand_));
   const test::Picture want = test::read_picture(folder_ / "alone.exr");
   for (const char* name : {"rle", "zips", "zip:9", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"}) {
@@ -131,7 +131,7 @@ TEST_F(ExpandPassing, CompressionsButPxr24KeepTheCoefficients) {
   }
 }
 
-TEST_F(ExpandPassing, TiledCompactImagesExpandToTheSameSpectra) {
+TEST_F(ExpandPassThrough, TiledCompactImagesExpandToTheSameSpectra) {
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "alone.exr", expand_));
   test::Picture compact = test::read_picture(folder_ / "compact.exr");
   test::write_tiles(folder_ / "tiles.exr", compact, 16, true);

@@ -30,7 +30,7 @@ const Plan& plan() {
   return made;
 }
 
-class PlannedFiles : public testing::Test {
+class PlannedBandsImages : public testing::Test {
  protected:
   void SetUp() override {
     test::Picture picture = test::every_color(70, 33);
@@ -79,7 +79,7 @@ double difference(const std::string& a, const std::string& b) {
   return most;
 }
 
-TEST_F(PlannedFiles, HaveAChannelForEachWavelengthAndGiveTheirColoursBack) {
+TEST_F(PlannedBandsImages, HaveAChannelForEachWavelengthAndGiveTheirColoursBack) {
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     options_.method = method;
     options_.out_of_gamut = GamutPolicy::kClip;
@@ -100,7 +100,7 @@ TEST_F(PlannedFiles, HaveAChannelForEachWavelengthAndGiveTheirColoursBack) {
   }
 }
 
-TEST_F(PlannedFiles, AreSeenUnderTheirPlansLightsAndNoOthers) {
+TEST_F(PlannedBandsImages, AreSeenUnderTheirPlansLightsAndNoOthers) {
   ASSERT_TRUE(upsample_image(in_, spectral_, options_));
   ProjectImageOptions project;
   project.light = *illuminant("FL11");
@@ -118,7 +118,7 @@ TEST_F(PlannedFiles, AreSeenUnderTheirPlansLightsAndNoOthers) {
   EXPECT_THAT(refused.error().message, HasSubstr("only for D65, FL11"));
 }
 
-TEST_F(PlannedFiles, ExpandFromCoefficientsToTheSameBits) {
+TEST_F(PlannedBandsImages, ExpandFromCoefficientsToTheSameBits) {
   for (const Method method : {Method::kSmitsExact, Method::kSigmoid}) {
     options_.method = method;
     const std::string compact = folder_ / "compact.exr";
@@ -144,7 +144,7 @@ TEST_F(PlannedFiles, ExpandFromCoefficientsToTheSameBits) {
   }
 }
 
-TEST_F(PlannedFiles, AreTexturesWithTheirPlan) {
+TEST_F(PlannedBandsImages, AreTexturesWithTheirPlan) {
   ASSERT_TRUE(upsample_image(in_, spectral_, options_));
   const auto texture = SpectralTexture::open(spectral_);
   ASSERT_TRUE(texture) << texture.error().message;
@@ -156,7 +156,7 @@ TEST_F(PlannedFiles, AreTexturesWithTheirPlan) {
       project(*Projector::reflective(texture->bands(), *illuminant("FL11")), batch.view(), xyz.span()));
 }
 
-TEST_F(PlannedFiles, AreRefusedWhereThePlanIsDamagedOrDoesNotFit) {
+TEST_F(PlannedBandsImages, AreRefusedWhereThePlanIsDamagedOrDoesNotFit) {
   ASSERT_TRUE(upsample_image(in_, spectral_, options_));
   const std::string bad = folder_ / "bad.exr";
   rewrite(spectral_, bad, [](Imf::Header& h) { h.insert("spectilePlan", Imf::StringAttribute("{\"wave")); });
@@ -176,7 +176,7 @@ TEST_F(PlannedFiles, AreRefusedWhereThePlanIsDamagedOrDoesNotFit) {
   EXPECT_THAT(fewer.error().message, HasSubstr("8 bands are not the 9 wavelengths"));
 }
 
-TEST_F(PlannedFiles, VerifyAgainstTheirOwnTables) {
+TEST_F(PlannedBandsImages, VerifyAgainstTheirOwnTables) {
   ASSERT_TRUE(upsample_image(in_, spectral_, options_));
   for (const std::string& path : {in_, spectral_}) {
     const auto report = verify_image(path, options_);
@@ -185,7 +185,7 @@ TEST_F(PlannedFiles, VerifyAgainstTheirOwnTables) {
   }
 }
 
-TEST_F(PlannedFiles, HoldFilmsToo) {
+TEST_F(PlannedBandsImages, HoldFilmsToo) {
   FilmOptions o;
   o.width = o.height = 2;
   o.input = FilmInput::kBands;

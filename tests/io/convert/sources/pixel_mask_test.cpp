@@ -13,9 +13,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class Masks : public testing::Test {
+class PixelMasks : public testing::Test {
  protected:
-  Masks() : picture_(test::blank(100, 40, {-3, 5})) {
+  PixelMasks() : picture_(test::blank(100, 40, {-3, 5})) {
     test::add_rgb_noise(picture_, Imf::HALF);
     options_.bands = *Bands::uniform(400, 700, 25);
   }
@@ -95,7 +95,7 @@ bool corner(int x, int y) {
   return x < 70 && y < 20;
 }
 
-TEST_F(Masks, AlphaZeroIsBlackInEveryType) {
+TEST_F(PixelMasks, AlphaZeroIsBlackInEveryType) {
   for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT, Imf::UINT}) {
     picture_.add("A", type, [](int x, int y) { return corner(x, y) ? 0 : 1; });
     const ImageReport report = expect_masked(corner);
@@ -104,18 +104,18 @@ TEST_F(Masks, AlphaZeroIsBlackInEveryType) {
   }
 }
 
-TEST_F(Masks, MinusZeroIsZero) {
+TEST_F(PixelMasks, MinusZeroIsZero) {
   picture_.add("A", Imf::FLOAT, [](int x, int y) { return corner(x, y) ? -0.0 : -1; });
   expect_masked(corner);
 }
 
-TEST_F(Masks, NoneKeepsThem) {
+TEST_F(PixelMasks, NoneKeepsThem) {
   picture_.add("A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
   options_.masking = Masking::kNone;
   EXPECT_TRUE(expect_masked([](int, int) { return false; }).notes.empty());
 }
 
-TEST_F(Masks, BlackOfAlphaZeroIsNotMentioned) {
+TEST_F(PixelMasks, BlackOfAlphaZeroIsNotMentioned) {
   for (const char* name : {"R", "G", "B"}) {
     picture_.add(name, Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 0.5; });
   }
@@ -123,7 +123,7 @@ TEST_F(Masks, BlackOfAlphaZeroIsNotMentioned) {
   EXPECT_TRUE(expect_masked(corner).notes.empty());
 }
 
-TEST_F(Masks, MaskedPixelsMayHoldAnything) {
+TEST_F(PixelMasks, MaskedPixelsMayHoldAnything) {
   picture_.add("G", Imf::HALF, [](int x, int y) {
     return corner(x, y) ? (x % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : -3) : 0.5;
   });
@@ -137,7 +137,7 @@ TEST_F(Masks, MaskedPixelsMayHoldAnything) {
   EXPECT_TRUE(black(test::read_picture(folder_ / "out.exr"), 0, 0));
 }
 
-TEST_F(Masks, CoefficientsAreThoseOfBlack) {
+TEST_F(PixelMasks, CoefficientsAreThoseOfBlack) {
   picture_.add("A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
   test::write_scanlines(folder_ / "in.exr", picture_);
   options_.store = Store::kCoefficients;
@@ -152,7 +152,7 @@ TEST_F(Masks, CoefficientsAreThoseOfBlack) {
   }
 }
 
-TEST_F(Masks, FileOfOtherWindowAndTypeMasks) {
+TEST_F(PixelMasks, FileOfOtherWindowAndTypeMasks) {
   picture_.add("A", Imf::HALF, [](int x, int) { return x < 50 ? 0 : 1; });
   for (const char* name : {"A", "Y", "R"}) {
     for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT, Imf::UINT}) {
@@ -167,7 +167,7 @@ TEST_F(Masks, FileOfOtherWindowAndTypeMasks) {
   }
 }
 
-TEST_F(Masks, MasksTellChunksApart) {
+TEST_F(PixelMasks, MasksTellChunksApart) {
   for (const char* name : {"R", "G", "B"}) picture_.add(name, Imf::HALF, [](int, int) { return 0.5; });
   test::Picture mask = test::blank(100, 40);
   mask.add("A", Imf::HALF, [](int x, int y) { return x == 99 && y == 17 ? 0 : 1; });
@@ -175,7 +175,7 @@ TEST_F(Masks, MasksTellChunksApart) {
   EXPECT_EQ(expect_masked([](int x, int y) { return x == 99 && y == 17; }).skipped.chunks_reused, 0U);
 }
 
-TEST_F(Masks, MasksThatDoNotFitAreErrors) {
+TEST_F(PixelMasks, MasksThatDoNotFitAreErrors) {
   test::Picture small = test::blank(99, 40);
   small.add("A", Imf::HALF, [](int, int) { return 1; });
   mask_by(small);
@@ -195,7 +195,7 @@ TEST_F(Masks, MasksThatDoNotFitAreErrors) {
   EXPECT_EQ(refused().code, ErrorCode::kBadArgument);
 }
 
-TEST_F(Masks, MaskMayNotBeTheOutput) {
+TEST_F(PixelMasks, MaskMayNotBeTheOutput) {
   test::Picture mask = test::blank(100, 40);
   mask.add("A", Imf::HALF, [](int, int) { return 1; });
   mask_by(mask);
@@ -205,7 +205,7 @@ TEST_F(Masks, MaskMayNotBeTheOutput) {
   EXPECT_EQ(report.error().code, ErrorCode::kBadArgument);
 }
 
-TEST_F(Masks, ALayersAlphaIsItsOwn) {
+TEST_F(PixelMasks, ALayersAlphaIsItsOwn) {
   test::add_rgb_noise(picture_, Imf::HALF, 1, "hat.");
   picture_.add("A", Imf::HALF, [](int, int) { return 0; });
   picture_.add("hat.A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });

@@ -22,7 +22,7 @@ std::map<std::string, test::Plane> spectra(const std::string& path) {
   return planes;
 }
 
-class InputKinds : public testing::Test {
+class RgbSourceImages : public testing::Test {
  protected:
   /// Upsamples; its spectra.
   std::map<std::string, test::Plane> upsampled(const std::string& input, const std::string& layer = "") {
@@ -50,7 +50,7 @@ class InputKinds : public testing::Test {
   Result<ImageReport> report_ = Error{};
 };
 
-TEST_F(InputKinds, FloatOfHalfValuesEqualsHalf) {
+TEST_F(RgbSourceImages, FloatOfHalfValuesEqualsHalf) {
   const auto expected = plain(100, 20);
   const test::Picture halves = test::read_picture(folder_ / "plain.exr");
   test::Picture picture = test::blank(100, 20);
@@ -65,7 +65,7 @@ TEST_F(InputKinds, FloatOfHalfValuesEqualsHalf) {
   EXPECT_TRUE(upsampled(folder_ / "mixed.exr") == expected);
 }
 
-TEST_F(InputKinds, WholeNumbersAreTakenAsTheyAre) {
+TEST_F(RgbSourceImages, WholeNumbersAreTakenAsTheyAre) {
   test::Picture uints = test::blank(67, 5);
   test::Picture floats = test::blank(67, 5);
   int channel = 0;
@@ -80,7 +80,7 @@ TEST_F(InputKinds, WholeNumbersAreTakenAsTheyAre) {
   EXPECT_TRUE(upsampled(folder_ / "uint.exr") == upsampled(folder_ / "float.exr"));
 }
 
-TEST_F(InputKinds, TilesWithAndWithoutMipmaps) {
+TEST_F(RgbSourceImages, TilesWithAndWithoutMipmaps) {
   const auto expected = plain(150, 131, {7, -9});
   for (const unsigned side : {16U, 64U, 300U}) {
     for (const bool mipmaps : {false, true}) {
@@ -92,7 +92,7 @@ TEST_F(InputKinds, TilesWithAndWithoutMipmaps) {
   }
 }
 
-TEST_F(InputKinds, EveryCompressionThatLosesNothing) {
+TEST_F(RgbSourceImages, EveryCompressionThatLosesNothing) {
   const auto expected = plain(70, 67);
   for (const auto method : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
                             Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION}) {
@@ -111,7 +111,7 @@ TEST_F(InputKinds, EveryCompressionThatLosesNothing) {
   }
 }
 
-TEST_F(InputKinds, DataWindowMayLieAnywhere) {
+TEST_F(RgbSourceImages, DataWindowMayLieAnywhere) {
   const auto expected = plain(90, 17);
   for (const auto& origin : {Imath::V2i(-200, -300), Imath::V2i(1000, 7), Imath::V2i(-45, -8)}) {
     test::Picture picture = test::blank(90, 17, origin);
@@ -127,7 +127,7 @@ TEST_F(InputKinds, DataWindowMayLieAnywhere) {
   }
 }
 
-TEST_F(InputKinds, LayersAreTakenByName) {
+TEST_F(RgbSourceImages, LayersAreTakenByName) {
   test::Picture picture = test::blank(70, 9);
   test::add_rgb_noise(picture, Imf::HALF, 0.5);
   test::add_rgb_noise(picture, Imf::HALF, 1, "left.");
@@ -147,7 +147,7 @@ TEST_F(InputKinds, LayersAreTakenByName) {
   EXPECT_THAT(missing.error().message, testing::HasSubstr("right"));
 }
 
-TEST_F(InputKinds, PartsAreSearchedInOrderAndTakenByNameOrView) {
+TEST_F(RgbSourceImages, PartsAreSearchedInOrderAndTakenByNameOrView) {
   test::Picture depth = test::blank(30, 8);
   depth.add("Z", Imf::FLOAT, [](int x, int) { return x; });
   test::Picture dim = test::blank(70, 9);
@@ -182,7 +182,7 @@ TEST_F(InputKinds, PartsAreSearchedInOrderAndTakenByNameOrView) {
   EXPECT_THAT(report_->notes, testing::Contains(testing::HasSubstr("2 other parts")));
 }
 
-TEST_F(InputKinds, LuminanceAloneIsGrey) {
+TEST_F(RgbSourceImages, LuminanceAloneIsGrey) {
   test::Picture luminance = test::blank(70, 9);
   luminance.add("Y", Imf::HALF, [](int x, int y) { return test::noise(x, y, 4); });
   test::write_scanlines(folder_ / "y.exr", luminance);
@@ -194,7 +194,7 @@ TEST_F(InputKinds, LuminanceAloneIsGrey) {
   EXPECT_TRUE(upsampled(folder_ / "y.exr") == upsampled(folder_ / "grey.exr"));
 }
 
-TEST_F(InputKinds, LuminanceAndChromaIsWhatOpenExrMakesOfIt) {
+TEST_F(RgbSourceImages, LuminanceAndChromaIsWhatOpenExrMakesOfIt) {
   const int width = 120;
   const int height = 66;
   std::vector<Imf::Rgba> pixels;
@@ -225,7 +225,7 @@ TEST_F(InputKinds, LuminanceAndChromaIsWhatOpenExrMakesOfIt) {
   EXPECT_TRUE(upsampled(folder_ / "yc.exr") == upsampled(folder_ / "rgb.exr"));
 }
 
-TEST_F(InputKinds, SubsampledRgbIsAClearError) {
+TEST_F(RgbSourceImages, SubsampledRgbIsAClearError) {
   Imf::Header header(64, 32);
   for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF, 2, 2));
   std::vector<half> samples(64 * 32);

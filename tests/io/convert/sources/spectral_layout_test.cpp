@@ -68,7 +68,7 @@ std::string make_input(const test::TempFolder& folder, double scale = 1) {
   return folder / "in.exr";
 }
 
-TEST(Layout, ReflectiveOutputFollowsThePaper) {
+TEST(SpectralLayoutFiles, ReflectiveOutputFollowsThePaper) {
   const test::TempFolder folder;
   const std::string input = make_input(folder);
   for (const char* bands_text : {"400:700:5", "380:780:2.5", "400:700:18.75", "450,550,650", "550"}) {
@@ -91,7 +91,7 @@ TEST(Layout, ReflectiveOutputFollowsThePaper) {
   }
 }
 
-TEST(Layout, EmissiveOutputNamesItsUnits) {
+TEST(SpectralLayoutFiles, EmissiveOutputNamesItsUnits) {
   const test::TempFolder folder;
   UpsampleImageOptions options;
   options.quantity = Quantity::kIlluminant;
@@ -108,7 +108,7 @@ TEST(Layout, EmissiveOutputNamesItsUnits) {
   EXPECT_EQ(*text(out.header, "emissiveUnits"), "W.m^-2.sr^-1");
 }
 
-TEST(Layout, ChannelOfAWavelengthHoldsTheSampleOfThatBand) {
+TEST(SpectralLayoutFiles, ChannelOfAWavelengthHoldsTheSampleOfThatBand) {
   const test::TempFolder folder;
   test::Picture picture = test::blank(3, 1);
   // Red, green, blue: each must be brightest in its own third of the spectrum.
@@ -129,7 +129,7 @@ TEST(Layout, ChannelOfAWavelengthHoldsTheSampleOfThatBand) {
   EXPECT_LT(at("T.552,500000nm", 2), 0.1);
 }
 
-TEST(Layout, PreviewIsTheInputToTheBit) {
+TEST(SpectralLayoutFiles, PreviewIsTheInputToTheBit) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, 50);
   ASSERT_TRUE(upsample_image(input, folder / "out.exr", test::kUpsample));
@@ -139,7 +139,7 @@ TEST(Layout, PreviewIsTheInputToTheBit) {
     EXPECT_TRUE(after.planes.at(name) == before.planes.at(name)) << name;
 }
 
-TEST(Layout, UpsamplingTwiceIsAnError) {
+TEST(SpectralLayoutFiles, UpsamplingTwiceIsAnError) {
   const test::TempFolder folder;
   ASSERT_TRUE(upsample_image(make_input(folder), folder / "spectral.exr", test::kUpsample));
   const auto again = upsample_image(folder / "spectral.exr", folder / "again.exr", test::kUpsample);
@@ -147,7 +147,7 @@ TEST(Layout, UpsamplingTwiceIsAnError) {
   EXPECT_EQ(again.error().code, ErrorCode::kBadFile);
 }
 
-TEST(Layout, ProjectedFileHoldsNoTraceOfTheSpectrum) {
+TEST(SpectralLayoutFiles, ProjectedFileHoldsNoTraceOfTheSpectrum) {
   const test::TempFolder folder;
   ASSERT_TRUE(upsample_image(make_input(folder), folder / "spectral.exr", test::kUpsample));
   for (const auto& [target, names] : {std::pair{ColorTarget::kSrgb, std::vector<std::string>{"B", "G", "R"}},
@@ -164,7 +164,7 @@ TEST(Layout, ProjectedFileHoldsNoTraceOfTheSpectrum) {
   }
 }
 
-TEST(Layout, PublishedColorChartProjectsToItsOwnPreview) {
+TEST(SpectralLayoutFiles, PublishedColorChartProjectsToItsOwnPreview) {
   SPECTILE_NEEDS_IMAGES("spectral");
   const std::string input = (test::shared_images("spectral") / "Macbeth.exr").string();
   const test::TempFolder folder;
@@ -195,7 +195,7 @@ TEST(Layout, PublishedColorChartProjectsToItsOwnPreview) {
   EXPECT_LT(sum, 0.00025);
 }
 
-TEST(Layout, PublishedDaylightHasItsChromaticity) {
+TEST(SpectralLayoutFiles, PublishedDaylightHasItsChromaticity) {
   SPECTILE_NEEDS_IMAGES("spectral");
   const std::string input = (test::shared_images("spectral") / "D65.exr").string();
   const test::TempFolder folder;

@@ -24,7 +24,7 @@ void add_bands(test::Picture& picture, const std::vector<std::string>& names,
 const std::vector<std::string> kNames = {"T.450,000000nm", "T.500,000000nm", "T.550,000000nm",
                                          "T.600,000000nm"};
 
-class SpectralInput : public testing::Test {
+class SpectralSourceImages : public testing::Test {
  protected:
   std::map<std::string, test::Plane> projected(const std::string& input,
                                                const ProjectImageOptions& options = kFloat) {
@@ -54,7 +54,7 @@ class SpectralInput : public testing::Test {
   Result<ImageReport> report_ = Error{};
 };
 
-TEST_F(SpectralInput, OrderAndSpellingOfNamesDoNotMatter) {
+TEST_F(SpectralSourceImages, OrderAndSpellingOfNamesDoNotMatter) {
   const auto expected = plain();
   test::Picture picture = test::blank(70, 35);
   add_bands(picture, {"T.0,5um", "T.4.5e-7m", "T.600nm", "T.550.0nm"});
@@ -69,7 +69,7 @@ TEST_F(SpectralInput, OrderAndSpellingOfNamesDoNotMatter) {
   }
 }
 
-TEST_F(SpectralInput, TilesAndLaterPartsAreFound) {
+TEST_F(SpectralSourceImages, TilesAndLaterPartsAreFound) {
   const auto expected = plain();
   test::Picture picture = test::blank(70, 35);
   add_bands(picture, kNames);
@@ -97,7 +97,7 @@ TEST_F(SpectralInput, TilesAndLaterPartsAreFound) {
   EXPECT_TRUE(projected(folder_ / "parts.exr") == expected);
 }
 
-TEST_F(SpectralInput, HalfSamplesAreTakenAsTheyAre) {
+TEST_F(SpectralSourceImages, HalfSamplesAreTakenAsTheyAre) {
   test::Picture halves = test::blank(70, 35);
   add_bands(halves, kNames, Imf::HALF);
   test::write_scanlines(folder_ / "half.exr", halves);
@@ -109,7 +109,7 @@ TEST_F(SpectralInput, HalfSamplesAreTakenAsTheyAre) {
   EXPECT_TRUE(projected(folder_ / "half.exr") == projected(folder_ / "float.exr"));
 }
 
-TEST_F(SpectralInput, QuantityIsChosenWhereAFileHoldsBoth) {
+TEST_F(SpectralSourceImages, QuantityIsChosenWhereAFileHoldsBoth) {
   test::Picture picture = test::blank(70, 35);
   add_bands(picture, kNames);
   for (const char* name : {"S0.450nm", "S0.550nm", "S0.650nm"}) {
@@ -139,7 +139,7 @@ TEST_F(SpectralInput, QuantityIsChosenWhereAFileHoldsBoth) {
   EXPECT_THAT(none.error().message, testing::HasSubstr("emissive"));
 }
 
-TEST_F(SpectralInput, LightTakesNoIlluminant) {
+TEST_F(SpectralSourceImages, LightTakesNoIlluminant) {
   test::Picture picture = test::blank(7, 3);
   add_bands(picture, {"S0.450nm", "S0.550nm"});
   test::write_scanlines(folder_ / "light.exr", picture);
@@ -150,7 +150,7 @@ TEST_F(SpectralInput, LightTakesNoIlluminant) {
   EXPECT_EQ(report.error().code, ErrorCode::kBadArgument);
 }
 
-TEST_F(SpectralInput, TwoChannelsOfOneWavelengthAreAnError) {
+TEST_F(SpectralSourceImages, TwoChannelsOfOneWavelengthAreAnError) {
   test::Picture picture = test::blank(7, 3);
   add_bands(picture, {"T.550nm", "T.550,0nm"});
   test::write_scanlines(folder_ / "twins.exr", picture);
@@ -159,7 +159,7 @@ TEST_F(SpectralInput, TwoChannelsOfOneWavelengthAreAnError) {
   EXPECT_EQ(report.error().code, ErrorCode::kBadFile);
 }
 
-TEST_F(SpectralInput, ABandFarBeyondSightIsVerifiedAtOnce) {
+TEST_F(SpectralSourceImages, ABandFarBeyondSightIsVerifiedAtOnce) {
   // Would be integrated in steps of a fraction of a nanometre, for years.
   test::Picture picture = test::blank(9, 6);
   for (const char* name : {"T.500nm", "T.600nm", "T.5e+7m"}) {

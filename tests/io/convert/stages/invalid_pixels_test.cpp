@@ -47,7 +47,7 @@ std::vector<std::string> band_names(const test::Picture& picture) {
   return out;
 }
 
-TEST(BadPixels, StopNamesTheFirstAndTheNumberWhateverTheThreads) {
+TEST(InvalidPixels, StopNamesTheFirstAndTheNumberWhateverTheThreads) {
   const test::TempFolder folder;
   const std::string input = nonfinite_input(folder);
   for (const int threads : {1, 2, 7}) {
@@ -66,7 +66,7 @@ TEST(BadPixels, StopNamesTheFirstAndTheNumberWhateverTheThreads) {
   }
 }
 
-TEST(BadPixels, ZeroMakesThemBlackAndCountsThem) {
+TEST(InvalidPixels, ZeroMakesThemBlackAndCountsThem) {
   const test::TempFolder folder;
   for (const auto type : {Imf::HALF, Imf::FLOAT}) {
     for (const auto pixel : {PixelType::kHalf, PixelType::kFloat}) {
@@ -88,7 +88,7 @@ TEST(BadPixels, ZeroMakesThemBlackAndCountsThem) {
   }
 }
 
-TEST(BadPixels, ProjectionFollowsTheSameRules) {
+TEST(InvalidPixels, ProjectionFollowsTheSameRules) {
   const test::TempFolder folder;
   test::Picture picture = test::blank(70, 40);
   for (const char* name : {"T.450nm", "T.550nm", "T.650nm"}) {
@@ -115,7 +115,7 @@ TEST(BadPixels, ProjectionFollowsTheSameRules) {
   EXPECT_GT(out.at("G", 1, 3), 0.0);
 }
 
-TEST(BadPixels, NegativeOnesAreClippedKeptOrRefused) {
+TEST(InvalidPixels, NegativeOnesAreClippedKeptOrRefused) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::HALF, [](test::Picture& p) {
     for (const char* name : {"R", "G", "B"}) set(p, name, 5, 1, -0.5);
@@ -147,7 +147,7 @@ TEST(BadPixels, NegativeOnesAreClippedKeptOrRefused) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"clip.exr", "in.exr", "keep.exr"}));
 }
 
-TEST(BadPixels, NegativeZeroIsNotNegative) {
+TEST(InvalidPixels, NegativeZeroIsNotNegative) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::HALF, [](test::Picture& p) { set(p, "R", 5, 1, -0.0); });
   UpsampleImageOptions options;
@@ -157,7 +157,7 @@ TEST(BadPixels, NegativeZeroIsNotNegative) {
   EXPECT_EQ(report->negative_pixels, 0U);
 }
 
-TEST(BadPixels, SamplesBeyondHalfAreLimitedAndCounted) {
+TEST(InvalidPixels, SamplesBeyondHalfAreLimitedAndCounted) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::FLOAT, [](test::Picture& p) {
     for (const char* name : {"R", "G", "B"}) {
@@ -183,7 +183,7 @@ TEST(BadPixels, SamplesBeyondHalfAreLimitedAndCounted) {
   EXPECT_GT(test::read_picture(folder / "out.exr").at("T.552,500000nm", 2, 0), 9e29);
 }
 
-TEST(BadPixels, KeptNegativeSamplesBeyondHalfAreLimitedAndCounted) {
+TEST(InvalidPixels, KeptNegativeSamplesBeyondHalfAreLimitedAndCounted) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::FLOAT, [](test::Picture& p) {
     for (const char* name : {"R", "G", "B"}) set(p, name, 1, 0, -1e6);
@@ -196,7 +196,7 @@ TEST(BadPixels, KeptNegativeSamplesBeyondHalfAreLimitedAndCounted) {
   EXPECT_EQ(test::read_picture(folder / "out.exr").at("T.552,500000nm", 1, 0), -65504.0);
 }
 
-TEST(BadPixels, ProjectedColorsBeyondHalfAreLimitedAndCounted) {
+TEST(InvalidPixels, ProjectedColorsBeyondHalfAreLimitedAndCounted) {
   const test::TempFolder folder;
   test::Picture picture = test::blank(70, 3);
   for (const char* name : {"T.450nm", "T.550nm", "T.650nm"}) {
@@ -215,7 +215,7 @@ TEST(BadPixels, ProjectedColorsBeyondHalfAreLimitedAndCounted) {
   EXPECT_EQ(srgb->clamped_pixels, 1U) << "pixels are counted, not their components";
 }
 
-TEST(BadPixels, PixelsOverOneAreCounted) {
+TEST(InvalidPixels, PixelsOverOneAreCounted) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::HALF, [](test::Picture& p) {
     set(p, "R", 1, 0, 1.5);
@@ -227,7 +227,7 @@ TEST(BadPixels, PixelsOverOneAreCounted) {
   EXPECT_EQ(report->over_one_pixels, 2U);
 }
 
-TEST(BadPixels, CancelledConversionLeavesNoOutput) {
+TEST(InvalidPixels, CancelledConversionLeavesNoOutput) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::HALF, [](test::Picture&) {});
   for (const std::uint64_t allowed : {0U, 1U, 2U}) {

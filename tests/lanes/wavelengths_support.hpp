@@ -1,0 +1,21 @@
+// What the tests of sampled wavelengths share.
+#pragma once
+
+#include <spectile/lanes/wavelengths.hpp>
+
+#include "tests/support/lanes.hpp"
+
+namespace spectile::test {
+
+inline SampledWavelengths drawn_wavelengths(WavelengthSampling sampling, std::size_t lanes, std::size_t count,
+                                            std::uint32_t seed, double first = 360, double last = 830) {
+  auto u = *ScalarLanes::create(lanes);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  for (std::size_t i = 0; i < lanes; ++i) u[i] = unit(random);
+  auto out = *SampledWavelengths::create(lanes, count);
+  EXPECT_TRUE(sample_wavelengths(sampling, u.view(), out, first, last));
+  return out;
+}
+
+}  // namespace spectile::test
