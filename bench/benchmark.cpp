@@ -1,4 +1,4 @@
-// The benchmark: machine limits, operations, ways of doing jobs, representations, and the numbers under
+// The benchmark: machine limits, operations, methods, representations, and the numbers under
 // stress.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,6 +8,7 @@
 #include <spectile/bench/benchmark.hpp>
 #include <spectile/isa.hpp>
 
+#include "bench/baseline/film_orders.hpp"
 #include "bench/limits/machine.hpp"
 #include "bench/methods/methods.hpp"
 #include "bench/methods/representations.hpp"
@@ -47,14 +48,14 @@ std::vector<int> thread_counts(const BenchmarkOptions& options, int cores) {
   return out;
 }
 
-/// What is worked on for the caches: a part of the second level that leaves room for tables and the stack.
+/// Bytes worked on for the caches: a part of the second level that leaves room for tables and the stack.
 std::size_t cache_bytes(const BenchmarkMachine& machine) {
   constexpr std::size_t kUnknown = std::size_t{512} << 10;
   const std::size_t size = machine.second_level_cache == 0 ? kUnknown : machine.second_level_cache;
   return std::clamp<std::size_t>(size / 4, std::size_t{128} << 10, std::size_t{1} << 20) / 4096 * 4096;
 }
 
-/// What is worked on for memory: far more than the caches, and not more than an eighth of what there is.
+/// Bytes worked on for memory: far more than the caches, and not more than an eighth of what there is.
 std::size_t memory_bytes(const BenchmarkMachine& machine, bool quick) {
   const auto there = static_cast<std::uint64_t>(std::max(0L, ::sysconf(_SC_PHYS_PAGES))) *
                      static_cast<std::uint64_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
@@ -76,21 +77,21 @@ class Run {
     if (options_.progress && !options_.progress(name, done_)) {
       return make_error(ErrorCode::kCancelled, "the benchmark was stopped before {}", name);
     }
-    const Watch watch;
+    const LoadMonitor monitor;
     stop_ = [this, name] { return options_.progress && !options_.progress(name, done_); };
     const Result<void> worked = work();
-    // What was cut short is void.
+    // A part that was cut short is void.
     if (stop_()) return make_error(ErrorCode::kCancelled, "the benchmark was stopped in {}", name);
     if (!worked) return worked.error();
-    const double others = watch.others();
-    if (others > kDisturbing) {
+    const double other_cores = monitor.other_cores();
+    if (other_cores > kDisturbing) {
       report_.disturbed.push_back(
-          fmt::format("{}: other work took {:.1f} of {} cores", name, others, report_.machine.cores));
+          fmt::format("{}: other work took {:.1f} of {} cores", name, other_cores, report_.machine.cores));
     }
     return {};
   }
   void set_done(double done) { done_ = done; }
-  /// Whether the caller wants an end, for what takes long within a part.
+  /// True if the caller wants an end, for long loops within a part.
   std::function<bool()> stop() const {
     return [this] { return stop_ && stop_(); };
   }
@@ -109,14 +110,14 @@ Result<void> check(const BenchmarkOptions& options, const BenchmarkMachine& mach
     }
   }
   for (const std::string& isa : options.isas) {
-    SPECTILE_ASSIGN(const auto found, dispatch::find(isa));
+    SPECTILE_TRY(dispatch::find(isa));
     if (isa == "scalar") {
       return make_error(ErrorCode::kBadArgument,
                         "the scalar reference is not made for speed: it has no limits to be held to");
     }
   }
   for (const std::string& light : options.lights) {
-    SPECTILE_ASSIGN(const auto found, true_light(light));
+    SPECTILE_TRY(reference_light(light));
   }
   if (machine.isas.empty() && options.isas.empty()) {
     return make_error(ErrorCode::kUnavailable, "none of the instruction sets with kernels runs here");
@@ -128,8 +129,39 @@ Error no_operation(const BenchmarkOptions& options) {
   return make_error(ErrorCode::kBadArgument, "no operation's name contains \"{}\"", options.only.front());
 }
 
+/// Forces an instruction set while it exists, for operations that choose theirs themselves.
+class ScopedIsa {
+ public:
+  explicit ScopedIsa(std::string_view isa) { static_cast<void>(dispatch::force(isa)); }
+  ~ScopedIsa() { static_cast<void>(dispatch::force("")); }
+  ScopedIsa(const ScopedIsa&) = delete;
+  ScopedIsa& operator=(const ScopedIsa&) = delete;
+};
+
+Result<void> measure_films(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
+  if (!options.memory) return {};
+  SPECTILE_ASSIGN(const auto table, dispatch::find(chosen_isas(options, report.machine).back()));
+  const ScopedIsa forced(table->name);
+  FilmOrderSettings settings;
+  settings.table = table;
+  settings.quick = options.quick;
+  settings.seed = options.seed;
+  settings.only = options.only;
+  settings.timing.rounds = options.quick ? 2 : 3;
+  settings.timing.stop = run.stop();
+  for (const MachineLimit& l : report.limits) {
+    if (l.isa == table->name && l.threads == 1 && l.level == MemoryLevel::kMemory) settings.copy = l.copy;
+  }
+  return run.part("films", [&]() -> Result<void> {
+    SPECTILE_ASSIGN(const auto found, measure_film_orders(settings));
+    report.baseline.insert(report.baseline.end(), found.begin(), found.end());
+    return {};
+  });
+}
+
 Result<void> measure_operations(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
-  SPECTILE_ASSIGN(auto made, lane_operations(Bands()));
+  const Bands bands;
+  SPECTILE_ASSIGN(auto made, lane_operations(bands));
   std::vector<Operation> operations = std::move(made);
   std::erase_if(operations, [&](const Operation& op) { return !is_chosen(op.name, options.only); });
   if (operations.empty()) return no_operation(options);
@@ -151,10 +183,12 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
         place.level = level;
         const bool cache = level == MemoryLevel::kCache;
         place.bytes = cache ? report.machine.cache_bytes : report.machine.memory_bytes;
-        place.patience.rounds = options.quick ? (cache ? 5 : 3) : (cache ? 15 : 5);
-        place.patience.least_seconds = options.quick ? 1e-3 : 2e-3;
-        place.patience.stop = run.stop();
+        place.timing.rounds = options.quick ? (cache ? 5 : 3) : (cache ? 15 : 5);
+        place.timing.min_seconds = options.quick ? 1e-3 : 2e-3;
+        place.timing.stop = run.stop();
         place.seed = options.seed;
+        place.baseline = fastest && cache && count == 1;
+        place.bands = bands;
         places.push_back(place);
       }
     }
@@ -169,6 +203,7 @@ Result<void> measure_operations(Run& run, const BenchmarkOptions& options, Bench
       SPECTILE_ASSIGN(auto found, measure_speeds(operations, place));
       report.limits.push_back(found.limit);
       report.operations.insert(report.operations.end(), found.operations.begin(), found.operations.end());
+      report.baseline.insert(report.baseline.end(), found.baseline.begin(), found.baseline.end());
       return {};
     }));
   }
@@ -184,7 +219,7 @@ void add_scaling(BenchmarkReport& report) {
           return o.threads == 1 && o.name == many.name && o.isa == many.isa && o.level == many.level;
         });
     if (one == report.operations.end()) continue;
-    const auto limit_of = [&](int threads) {
+    const auto scaling_limit = [&](int threads) {
       const auto found = std::find_if(report.limits.begin(), report.limits.end(), [&](const MachineLimit& l) {
         return l.threads == threads && l.isa == many.isa && l.level == many.level;
       });
@@ -197,19 +232,10 @@ void add_scaling(BenchmarkReport& report) {
     s.level = many.level;
     s.threads = many.threads;
     s.speed_up = many.items_per_second / one->items_per_second;
-    s.limit = limit_of(many.threads) / limit_of(1);
+    s.limit = scaling_limit(many.threads) / scaling_limit(1);
     report.scaling.push_back(std::move(s));
   }
 }
-
-/// Forces an instruction set while it exists, for operations that choose theirs themselves.
-class ScopedIsa {
- public:
-  explicit ScopedIsa(std::string_view isa) { static_cast<void>(dispatch::force(isa)); }
-  ~ScopedIsa() { static_cast<void>(dispatch::force("")); }
-  ScopedIsa(const ScopedIsa&) = delete;
-  ScopedIsa& operator=(const ScopedIsa&) = delete;
-};
 
 Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
   SPECTILE_ASSIGN(const auto table, dispatch::find(chosen_isas(options, report.machine).back()));
@@ -218,32 +244,33 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
   if (spectra.empty()) {
     SPECTILE_ASSIGN(spectra, chart_reflectances());
   }
-  SPECTILE_ASSIGN(const auto reflectances, true_reflectances(spectra));
+  SPECTILE_ASSIGN(const auto reflectances, reference_reflectances(spectra));
   // Two smooth, two with lines.
   const std::vector<std::string> lights =
       options.lights.empty() ? std::vector<std::string>{"D65", "A", "FL11", "HP1"} : options.lights;
-  Patience patience;
-  patience.rounds = options.quick ? 5 : 11;
-  patience.least_seconds = options.quick ? 1e-3 : 3e-3;
-  patience.stop = run.stop();
+  TimingBudget timing;
+  timing.rounds = options.quick ? 5 : 11;
+  timing.min_seconds = options.quick ? 1e-3 : 3e-3;
+  timing.stop = run.stop();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     run.set_done(0.4 + 0.4 * static_cast<double>(i) / static_cast<double>(lights.size()));
-    SPECTILE_TRY(run.part(fmt::format("ways under {}", lights[i]), [&]() -> Result<void> {
-      SPECTILE_ASSIGN(auto light, true_light(lights[i]));
+    SPECTILE_TRY(run.part(fmt::format("methods under {}", lights[i]), [&]() -> Result<void> {
+      SPECTILE_ASSIGN(auto light, reference_light(lights[i]));
       SPECTILE_ASSIGN(auto planned, planned_bands_for(lights[i], options.quick));
-      const WayScene scene{&reflectances, &light, table, std::move(planned), options.seed};
+      const MethodScene scene{&reflectances, &light, table, std::move(planned), options.seed};
       for (const bool film : {false, true}) {
-        SPECTILE_ASSIGN(auto ways, film ? film_ways(scene, options.quick) : rgb_ways(scene, options.quick));
-        const auto found = measure_ways(film ? kFilmJob : kRgbJob, scene, ways, patience, report.ways);
-        report.ways.insert(report.ways.end(), found.begin(), found.end());
+        SPECTILE_ASSIGN(auto methods,
+                        film ? film_methods(scene, options.quick) : rgb_methods(scene, options.quick));
+        const auto found = measure_methods(film ? kFilmJob : kRgbJob, scene, methods, timing, report.methods);
+        report.methods.insert(report.methods.end(), found.begin(), found.end());
       }
-      SPECTILE_ASSIGN(auto side, measure_representations(scene, patience));
+      SPECTILE_ASSIGN(auto side, measure_representations(scene, timing));
       report.representations.insert(report.representations.end(), side.begin(), side.end());
       return {};
     }));
   }
-  mark_frontier(report.ways);
-  report.advice = advice_on(report.ways);
+  mark_frontier(report.methods);
+  report.advice = advice_on(report.methods);
   return {};
 }
 
@@ -285,7 +312,8 @@ Result<BenchmarkReport> run_benchmark(const BenchmarkOptions& options) {
   if (options.speed) {
     SPECTILE_TRY(measure_operations(run, options, report));
     add_scaling(report);
-    // What is asked of some operations is asked of them alone.
+    SPECTILE_TRY(measure_films(run, options, report));
+    // A choice of operations leaves out the methods.
     if (options.only.empty()) SPECTILE_TRY(measure_jobs(run, options, report));
   }
   if (options.only.empty() || options.stress) SPECTILE_TRY(stress(run, options, report));

@@ -37,7 +37,7 @@ def measure(command, args):
     return report, {(o["isa"], o["name"]): o["fraction"] for o in report["operations"]}
 
 
-def judge(ratios, least):
+def evaluate(ratios, least):
     """Median, noise, and whether it is a real loss."""
     middle = statistics.median(ratios)
     deviation = statistics.median(abs(r - middle) for r in ratios)
@@ -101,7 +101,7 @@ def main():
         return 2
     losses = []
     for key, values in sorted(ratios.items()):
-        middle, noise, lost = judge(values, args.least)
+        middle, noise, lost = evaluate(values, args.least)
         mark = "LOSS" if lost else "gain" if middle - 1 > max(args.least, 3 * noise) else ""
         print(f"{key[0]:<8} {key[1]:<44} {middle:6.3f} +- {noise:.3f} {mark}")
         if lost:

@@ -25,7 +25,7 @@ struct Planes {
   std::vector<std::vector<half>> samples;
 };
 
-Imf::FrameBuffer frame_of(Planes& planes) {
+Imf::FrameBuffer frame_buffer(Planes& planes) {
   Imf::FrameBuffer out;
   for (std::size_t k = 0; k < planes.names.size(); ++k) {
     out.insert(planes.names[k], Imf::Slice(Imf::HALF, reinterpret_cast<char*>(planes.samples[k].data()),
@@ -42,7 +42,7 @@ void write(const std::string& path, Planes& planes, const std::string& compressi
   if (compression.rfind("zip:", 0) == 0) header.zipCompressionLevel() = std::atoi(compression.c_str() + 4);
   for (const std::string& name : planes.names) header.channels().insert(name, Imf::Channel(Imf::HALF));
   Imf::OutputFile file(path.c_str(), header);
-  file.setFrameBuffer(frame_of(planes));
+  file.setFrameBuffer(frame_buffer(planes));
   file.writePixels(static_cast<int>(planes.height));
 }
 
@@ -56,7 +56,7 @@ Planes read(const std::string& path) {
     out.names.emplace_back(it.name());
     out.samples.emplace_back(out.width * out.height);
   }
-  file.setFrameBuffer(frame_of(out));
+  file.setFrameBuffer(frame_buffer(out));
   file.readPixels(window.min.y, window.max.y);
   return out;
 }

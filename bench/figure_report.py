@@ -52,7 +52,7 @@ def report_frontier(r):
     out = []
     for job, light in dict.fromkeys((w["job"], w["light"]) for w in r["ways"]):
         shown = [w for w in r["ways"] if (w["job"], w["light"]) == (job, light)
-                 and (w["frontier"] or w["family"] in ("AoS baseline", "textbook"))]
+                 and (w["frontier"] or w["family"] == "AoS baseline")]
         rows = [[f"**{w['name']}**" if w["frontier"] else w["name"], figure(w["nanoseconds"])]
                 + [f"{w['error'][key]:.3f}" for key in ("mean", "percentile95", "maximum")]
                 for w in sorted(shown, key=lambda w: w["nanoseconds"])]

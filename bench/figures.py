@@ -86,18 +86,19 @@ LIGHTS = ("D65", "A", "FL2", "FL11", "HP1", "LED-B3", "LED-RGB1")
 
 def make_plan(args, lights, bands, sample, bounces=1, more=()):
     """Cross-validated errors of a plan: (even bands or None, light, bounces) to errors; and its processor seconds."""
-    chart = [s["name"] for s in tool(args, "spectra")["spectra"] if s["kind"] == "reflectance"] if not args.chart else args.chart
-    args.chart = chart
+    if args.chart is None:
+        named = [json.loads(line) for line in run([args.tool, "spectra", "--json"])[0].splitlines()]
+        args.chart = [s["name"] for s in named if s["kind"] == "reflectance"]
     words = [args.tool, "plan", "--json", "-o", args.file("plan.json"), "--bands", bands, "--sample", sample, "--bounces",
              bounces, "--threads", 1, *more]
     for light in lights:
         words += ["--illuminant", light]
-    for name in [*args.reflectances, *chart]:
+    for name in [*args.reflectances, *args.chart]:
         words += ["--reflectances", name]
     text, _, seconds, _ = run(words)
-    promise = json.loads(text)["promise"]
+    held_out = json.loads(text)["promise"]
     out = {}
-    for bands_text, of in [(None, promise["illuminants"]), *promise["even_bands"].items()]:
+    for bands_text, of in [(None, held_out["illuminants"]), *held_out["even_bands"].items()]:
         for light, errors in of.items():
             for count, error in errors.items():
                 out[bands_text, light, int(count)] = error
@@ -280,8 +281,7 @@ def methods(args):
     for space in ("srgb", "display-p3", "adobe-rgb", "rec2020", "acescg", "aces2065-1"):
         row = [space]
         for method in ("smits-exact", "sigmoid"):
-            words = ("upsample", cube, "--input-space", space, "--method", method, "--pixel", "float", "--compression", "none",
-                     "--store", "coefficients")
+            words = ("upsample", cube, "--input-space", space, "--method", method, "--pixel", "float", "--compression", "none")
             tool(args, *words, "-o", args.file("kept.exr"), "--out-of-gamut", "keep")
             outside = tool(args, *words, "-o", args.file("clipped.exr"), "--out-of-gamut", "clip")["out_of_gamut_pixels"]
             moved = [e for e in color_errors(args.file("kept.exr"), args.file("clipped.exr")) if e > 1e-4] or [0]

@@ -38,14 +38,14 @@ void summarize(Timed& work) {
   work.spread = 0.5 * (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / work.seconds;
 }
 
-double seconds_of(const timeval& t) {
+double to_seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
 double own_seconds() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  return to_seconds(usage.ru_utime) + to_seconds(usage.ru_stime);
 }
 
 /// Seconds that all cores together have been busy or taken away by the host since the system started; -1
@@ -72,16 +72,16 @@ double busy_seconds() {
 
 }  // namespace
 
-void time_in_turn(std::span<Timed* const> work, const Patience& patience) {
-  const auto stopped = [&] { return patience.stop && patience.stop(); };
+void time_in_turn(std::span<Timed* const> work, const TimingBudget& timing) {
+  const auto stopped = [&] { return timing.stop && timing.stop(); };
   for (Timed* w : work) {
     if (stopped()) return;
     // The first run touches memory; then as many at a time as take long enough for the clock.
     static_cast<void>(run_for(*w, 1));
     std::size_t repeats = 1;
     double took = run_for(*w, repeats);
-    while (took < 0.5 * patience.least_seconds) {
-      const double more = took > 0 ? patience.least_seconds / took : 16.0;
+    while (took < 0.5 * timing.min_seconds) {
+      const double more = took > 0 ? timing.min_seconds / took : 16.0;
       repeats =
           static_cast<std::size_t>(std::ceil(static_cast<double>(repeats) * std::clamp(more, 1.5, 16.0)));
       took = run_for(*w, repeats);
@@ -89,7 +89,7 @@ void time_in_turn(std::span<Timed* const> work, const Patience& patience) {
     w->repeats = repeats;
     w->rounds.clear();
   }
-  for (int round = 0; round < patience.rounds; ++round) {
+  for (int round = 0; round < timing.rounds; ++round) {
     if (stopped()) break;
     for (Timed* w : work) {
       w->rounds.push_back(run_for(*w, w->repeats) / static_cast<double>(w->repeats));
@@ -108,9 +108,9 @@ double median_ratio(const Timed& a, const Timed& b) {
   return quantile(ratios, 0.5);
 }
 
-Watch::Watch() : start_seconds_(now()), start_busy_(busy_seconds()), start_own_(own_seconds()) {}
+LoadMonitor::LoadMonitor() : start_seconds_(now()), start_busy_(busy_seconds()), start_own_(own_seconds()) {}
 
-double Watch::others() const {
+double LoadMonitor::other_cores() const {
   const double busy = busy_seconds();
   const double wall = now() - start_seconds_;
   if (busy < 0 || start_busy_ < 0 || wall <= 0) return -1;

@@ -18,26 +18,26 @@ struct Timed {
   std::vector<double> rounds;  ///< seconds of one run, round by round
 };
 
-/// How long and how often.
-struct Patience {
+/// Rounds of a timing and their length.
+struct TimingBudget {
   int rounds = 9;
-  double least_seconds = 2e-3;  ///< that are timed at once
-  std::function<bool()> stop;   ///< asked between runs; true leaves the rest out, and the results are void
+  double min_seconds = 2e-3;   ///< that are timed at once
+  std::function<bool()> stop;  ///< asked between runs; true leaves the rest out, and the results are void
 };
 
 /// Runs each a first time, then all of them in turn, round by round, so that a change of the machine's speed
 /// meets all of them alike.
-void time_in_turn(std::span<Timed* const> work, const Patience& patience);
+void time_in_turn(std::span<Timed* const> work, const TimingBudget& timing);
 
-/// The median of a / b, round by round: what is left of a quotient when both drift together.
+/// The median of a / b, round by round: what is left of a ratio when both drift together.
 double median_ratio(const Timed& a, const Timed& b);
 
 /// Watches for work of others while it exists.
-class Watch {
+class LoadMonitor {
  public:
-  Watch();
+  LoadMonitor();
   /// Cores that others kept busy since the start, on average; below 0 where the system does not say.
-  double others() const;
+  double other_cores() const;
 
  private:
   double start_seconds_;

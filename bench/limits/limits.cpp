@@ -107,8 +107,8 @@ MachineLimit LimitLoops::limit() const {
   return out;
 }
 
-double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool non_temporal,
-                              std::string* binds) const {
+double LimitLoops::item_seconds(std::size_t round, const Cost& cost, bool non_temporal,
+                                std::string* bottleneck) const {
   const auto per_byte = [&](const Timed& t) { return t.rounds[round] / bytes_; };
   const double load = per_byte(load_);
   const double copy = per_byte(copy_);
@@ -118,7 +118,7 @@ double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool non_temp
     memory = cost.read_bytes * load + cost.written_bytes * per_byte(stream_);
     name = cost.written_bytes > 0 ? "stream" : "load";
   } else {
-    // What is both read and written is copied at best; the rest is loaded or stored.
+    // Bytes both read and written are copied at best; the rest is loaded or stored.
     const double both = std::min(cost.read_bytes, cost.written_bytes);
     const double more = std::max(cost.read_bytes, cost.written_bytes) - both;
     const bool reads = cost.read_bytes > cost.written_bytes;
@@ -127,19 +127,19 @@ double LimitLoops::seconds_of(std::size_t round, const Cost& cost, bool non_temp
   }
   const double arithmetic = cost.operations * multiply_add_.rounds[round] / (2 * steps_) +
                             cost.divisions * divide_.rounds[round] / steps_;
-  if (binds != nullptr) {
+  if (bottleneck != nullptr) {
     const bool divider = cost.divisions * divide_.rounds[round] / steps_ > 0.5 * arithmetic;
-    *binds = memory >= arithmetic ? name : divider ? "divide" : "multiply-add";
+    *bottleneck = memory >= arithmetic ? name : divider ? "divide" : "multiply-add";
   }
   return std::max(memory, arithmetic);
 }
 
 double LimitLoops::fraction(const Timed& work, double items, const Cost& cost, bool non_temporal,
-                            std::string* binds) const {
+                            std::string* bottleneck) const {
   Timed limit;
   Timed actual;
   for (std::size_t round = 0; round < std::min(work.rounds.size(), load_.rounds.size()); ++round) {
-    limit.rounds.push_back(items * seconds_of(round, cost, non_temporal, binds));
+    limit.rounds.push_back(items * item_seconds(round, cost, non_temporal, bottleneck));
     actual.rounds.push_back(work.rounds[round]);
   }
   return median_ratio(limit, actual);

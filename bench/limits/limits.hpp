@@ -10,7 +10,7 @@
 
 namespace spectile::measure {
 
-/// What an item costs at least.
+/// Lower bounds of an item's cost.
 struct Cost {
   double read_bytes = 0;
   double written_bytes = 0;
@@ -34,13 +34,13 @@ class LimitLoops {
              MemoryLevel level);
   std::vector<Timed*> timed();
   MachineLimit limit() const;
-  /// Least seconds of an item in each round, and what it is that binds it: median of the rounds' fractions
+  /// Least seconds of an item in each round, and the limiting resource: median of the rounds' fractions
   /// that `work` reaches, which does `items` a run. `non_temporal`: with such stores.
   double fraction(const Timed& work, double items, const Cost& cost, bool non_temporal,
-                  std::string* binds) const;
+                  std::string* bottleneck) const;
 
  private:
-  double seconds_of(std::size_t round, const Cost& cost, bool non_temporal, std::string* binds) const;
+  double item_seconds(std::size_t round, const Cost& cost, bool non_temporal, std::string* bottleneck) const;
   std::string isa_;
   int threads_;
   MemoryLevel level_;

@@ -1,4 +1,4 @@
-// What is measured where: processor, caches, system, compiler.
+// Description of the machine: processor, caches, system, compiler.
 #include "bench/limits/machine.hpp"
 
 #include <sys/utsname.h>

@@ -8,7 +8,7 @@
 #include <spectile/lanes/wavelengths.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
-#include "bench/methods/aos_baseline.hpp"
+#include "bench/baseline/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
 #include "src/spectra/planned_bands.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 /// The film's width; a lane goes to the pixel of its number, so that samples come row by row.
 constexpr int kWidth = 64;
-constexpr int kHeight = static_cast<int>(kWayLanes) / kWidth;
+constexpr int kHeight = static_cast<int>(kMethodLanes) / kWidth;
 /// Samples of drawn wavelengths that a pixel is given.
 constexpr std::size_t kDrawsPerPixel = 256;
 constexpr std::size_t kWavelengths = 4;
@@ -26,7 +26,7 @@ constexpr std::size_t kWavelengths = 4;
 struct Positions {
   std::vector<float> x, y, weight;
   Positions() {
-    for (std::size_t i = 0; i < kWayLanes; ++i) {
+    for (std::size_t i = 0; i < kMethodLanes; ++i) {
       x.push_back(static_cast<float>(i % kWidth) + 0.5F);
       const std::size_t line = i / kWidth;
       y.push_back(static_cast<float>(line) + 0.5F);
@@ -40,16 +40,16 @@ struct State {
   Positions at;
   std::vector<float> radiance;  ///< [band][lane]
   std::optional<Film> film;
-  double white_y = 1;  ///< of a white reflector, which the results are relative to
+  double white_y = 1;  ///< of the perfect diffuser, which the results are relative to
 };
 
 Result<FilmDevelopment> developed(const Film& film) {
   SPECTILE_ASSIGN(auto picture, FilmDevelopment::create(film, FilmLayer::kXyz));
-  SPECTILE_ASSIGN(const auto updated, picture.update({1}));
+  SPECTILE_TRY(picture.update({1}));
   return picture;
 }
 
-std::function<Xyz(std::size_t)> pixel_of(const std::shared_ptr<State>& s) {
+std::function<Xyz(std::size_t)> pixel_reader(const std::shared_ptr<State>& s) {
   return [s, picture = std::shared_ptr<FilmDevelopment>()](std::size_t lane) mutable {
     if (picture == nullptr) {
       auto made = developed(*s->film);
@@ -64,7 +64,7 @@ std::function<Xyz(std::size_t)> pixel_of(const std::shared_ptr<State>& s) {
   };
 }
 
-FilmOptions options_of() {
+FilmOptions film_options() {
   FilmOptions o;
   o.width = kWidth;
   o.height = kHeight;
@@ -73,44 +73,44 @@ FilmOptions options_of() {
 }
 
 /// Each lane's radiance in the bands: its reflectance's sample times the light's.
-Result<std::vector<float>> radiance_on(const WayScene& scene, const Bands& bands, double* white_y) {
+Result<std::vector<float>> radiance_on(const MethodScene& scene, const Bands& bands, double* white_y) {
   SPECTILE_ASSIGN(const auto light, light_samples(scene.light->spectrum, bands));
   SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
   *white_y = 0;
-  for (std::size_t b = 0; b < bands.count(); ++b) *white_y += observer.weights()[b][1] * (light)[b];
-  std::vector<float> out(bands.count() * kWayLanes);
+  for (std::size_t b = 0; b < bands.count(); ++b) *white_y += observer.weights()[b][1] * light[b];
+  std::vector<float> out(bands.count() * kMethodLanes);
   for (std::size_t r = 0; r < scene.reflectances->size(); ++r) {
     for (std::size_t b = 0; b < bands.count(); ++b) {
       const double sample = sample_in((*scene.reflectances)[r].spectrum, bands, b);
-      const auto value = static_cast<float>(sample * (light)[b]);
-      for (std::size_t lane = r; lane < kWayLanes; lane += scene.reflectances->size()) {
-        out[b * kWayLanes + lane] = value;
+      const auto value = static_cast<float>(sample * light[b]);
+      for (std::size_t lane = r; lane < kMethodLanes; lane += scene.reflectances->size()) {
+        out[b * kMethodLanes + lane] = value;
       }
     }
   }
   return out;
 }
 
-Result<void> add_bands(const WayScene& scene, const Bands& bands, const std::string& family,
-                       const std::string& name, std::vector<Way>& ways) {
+Result<void> add_bands(const MethodScene& scene, const Bands& bands, const std::string& family,
+                       const std::string& name, std::vector<MethodRun>& methods) {
   auto s = std::make_shared<State>();
   SPECTILE_ASSIGN(auto radiance, radiance_on(scene, bands, &s->white_y));
   s->radiance = std::move(radiance);
-  FilmOptions o = options_of();
+  FilmOptions o = film_options();
   o.input = FilmInput::kBands;
   o.bands = bands;
   SPECTILE_ASSIGN(auto film, Film::create(o));
   s->film = std::move(film);
-  Way way;
-  way.family = family;
-  way.name = name;
-  way.bands = static_cast<int>(bands.count());
-  way.bytes = bands.count() * sizeof(float);
-  way.run = [s, n = bands.count()] {
-    static_cast<void>(s->film->add(BandSamples{s->at.x, s->at.y, {}, {s->radiance.data(), n, kWayLanes}}));
+  MethodRun method;
+  method.family = family;
+  method.name = name;
+  method.bands = static_cast<int>(bands.count());
+  method.bytes = bands.count() * sizeof(float);
+  method.run = [s, n = bands.count()] {
+    static_cast<void>(s->film->add(BandSamples{s->at.x, s->at.y, {}, {s->radiance.data(), n, kMethodLanes}}));
   };
-  way.result = pixel_of(s);
-  ways.push_back(std::move(way));
+  method.result = pixel_reader(s);
+  methods.push_back(std::move(method));
   return {};
 }
 
@@ -120,7 +120,7 @@ void add_draw(Film& film, const Positions& at, const SampledWavelengths& w, cons
       at.x, at.y, {}, rows(radiance.view()), rows(w.lambda_nm.view()), rows(w.density.view())}));
 }
 
-Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
+Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& methods) {
   struct Drawn {
     State film;
     std::vector<SampledWavelengths> draws;
@@ -128,11 +128,11 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
     std::size_t next = 0;
   };
   auto d = std::make_shared<Drawn>();
-  FilmOptions o = options_of();
+  FilmOptions o = film_options();
   SPECTILE_ASSIGN(auto film, Film::create(o));
   d->film.film = std::move(film);
   std::mt19937_64 random(scene.seed);
-  SPECTILE_ASSIGN(auto u, ScalarLanes::create(kWayLanes));
+  SPECTILE_ASSIGN(auto u, ScalarLanes::create(kMethodLanes));
   // The light on the scale on which the film's white is 1.
   const auto& light = scene.light->spectrum;
   double luminance = 0;
@@ -140,22 +140,21 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
     SPECTILE_ASSIGN(const auto y_bar, named_spectrum("cie1931-y"));
     double total = 0;
     for (int nm = 360; nm <= 830; ++nm) {
-      luminance += (y_bar)(nm)*light.at(nm);
-      total += (y_bar)(nm);
+      luminance += y_bar(nm) * light.at(nm);
+      total += y_bar(nm);
     }
     luminance /= total;
   }
   for (std::size_t sample = 0; sample < kDrawsPerPixel; ++sample) {
     // Stratified over a pixel's samples: each in its own part of the range.
-    for (std::size_t i = 0; i < kWayLanes; ++i) {
+    for (std::size_t i = 0; i < kMethodLanes; ++i) {
       const double jitter = static_cast<double>(random() >> 11U) * 0x1p-53;
-      (u)[i] =
-          static_cast<float>((static_cast<double>(sample) + jitter) / static_cast<double>(kDrawsPerPixel));
+      u[i] = static_cast<float>((static_cast<double>(sample) + jitter) / static_cast<double>(kDrawsPerPixel));
     }
-    SPECTILE_ASSIGN(auto drawn, SampledWavelengths::create(kWayLanes, kWavelengths));
+    SPECTILE_ASSIGN(auto drawn, SampledWavelengths::create(kMethodLanes, kWavelengths));
     SPECTILE_TRY(sample_wavelengths(WavelengthSampling::kVisible, u.view(), drawn));
-    SPECTILE_ASSIGN(auto radiance, WavelengthLanes::create(kWayLanes, kWavelengths));
-    for (std::size_t i = 0; i < kWayLanes; ++i) {
+    SPECTILE_ASSIGN(auto radiance, WavelengthLanes::create(kMethodLanes, kWavelengths));
+    for (std::size_t i = 0; i < kMethodLanes; ++i) {
       const auto& r = (*scene.reflectances)[i % scene.reflectances->size()].spectrum;
       for (std::size_t k = 0; k < kWavelengths; ++k) {
         const auto nm = static_cast<double>(drawn.lambda_nm.at(i, k));
@@ -165,95 +164,95 @@ Result<void> add_wavelengths(const WayScene& scene, std::vector<Way>& ways) {
     d->draws.push_back(std::move(drawn));
     d->radiance.push_back(std::move(radiance));
   }
-  Way way;
-  way.family = "wavelengths";
-  way.name = fmt::format("{} drawn wavelengths, {} samples a pixel", kWavelengths, kDrawsPerPixel);
-  way.bytes = kDrawsPerPixel * 3 * kWavelengths * sizeof(float);
-  way.per_lane = static_cast<double>(kDrawsPerPixel);
-  way.run = [d] {
+  MethodRun method;
+  method.family = "wavelengths";
+  method.name = fmt::format("{} drawn wavelengths, {} samples a pixel", kWavelengths, kDrawsPerPixel);
+  method.bytes = kDrawsPerPixel * 3 * kWavelengths * sizeof(float);
+  method.per_lane = static_cast<double>(kDrawsPerPixel);
+  method.run = [d] {
     add_draw(*d->film.film, d->film.at, d->draws[d->next], d->radiance[d->next]);
     d->next = (d->next + 1) % kDrawsPerPixel;
   };
-  // Judged in a film of its own, which each sample has reached once.
-  way.result = [d, pixels = std::function<Xyz(std::size_t)>()](std::size_t lane) mutable {
+  // Evaluated in a film of its own, which each sample has reached once.
+  method.result = [d, pixels = std::function<Xyz(std::size_t)>()](std::size_t lane) mutable {
     if (!pixels) {
-      auto fresh = Film::create(options_of());
+      auto fresh = Film::create(film_options());
       if (!fresh) return Xyz{};
       d->film.film = *std::move(fresh);
       for (std::size_t i = 0; i < kDrawsPerPixel; ++i) {
         add_draw(*d->film.film, d->film.at, d->draws[i], d->radiance[i]);
       }
-      pixels = pixel_of(std::shared_ptr<State>(d, &d->film));
+      pixels = pixel_reader(std::shared_ptr<State>(d, &d->film));
     }
     return pixels(lane);
   };
-  ways.push_back(std::move(way));
+  methods.push_back(std::move(method));
   return {};
 }
 
-Result<void> add_textbook(const WayScene& scene, std::vector<Way>& ways) {
-  for (const TextbookWay& text : textbook().ways) {
-    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples)));
+Result<void> add_aos_baseline(const MethodScene& scene, std::vector<MethodRun>& methods) {
+  for (const AosJob& job : aos_baseline().jobs) {
+    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(job.samples)));
     SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
-    struct Book {
-      TextbookScene scene{};
+    struct Baseline {
+      AosTables scene{};
       std::vector<float> radiance, weight;
       std::vector<std::size_t> pixel;
-      std::vector<TextbookPixel> film;
+      std::vector<AosPixel> film;
       double white_y = 1;
     };
-    auto book = std::make_shared<Book>();
-    SPECTILE_ASSIGN(const auto rows, radiance_on(scene, bands, &book->white_y));
-    book->radiance.resize(kWayLanes * text.samples);
-    for (std::size_t i = 0; i < kWayLanes; ++i) {
-      for (std::size_t b = 0; b < text.samples; ++b)
-        book->radiance[i * text.samples + b] = (rows)[b * kWayLanes + i];
-      book->pixel.push_back(i);
+    auto baseline = std::make_shared<Baseline>();
+    SPECTILE_ASSIGN(const auto rows, radiance_on(scene, bands, &baseline->white_y));
+    baseline->radiance.resize(kMethodLanes * job.samples);
+    for (std::size_t i = 0; i < kMethodLanes; ++i) {
+      for (std::size_t b = 0; b < job.samples; ++b)
+        baseline->radiance[i * job.samples + b] = rows[b * kMethodLanes + i];
+      baseline->pixel.push_back(i);
     }
-    book->weight.assign(kWayLanes, 1.0F);
-    book->film.resize(kWayLanes);
-    for (std::size_t b = 0; b < text.samples; ++b) {
+    baseline->weight.assign(kMethodLanes, 1.0F);
+    baseline->film.resize(kMethodLanes);
+    for (std::size_t b = 0; b < job.samples; ++b) {
       for (std::size_t k = 0; k < 3; ++k) {
-        book->scene.matching[k][b] = static_cast<float>(observer.weights()[b][k]);
+        baseline->scene.matching[k][b] = static_cast<float>(observer.weights()[b][k]);
       }
     }
-    Way way;
-    way.family = "textbook";
-    way.name = fmt::format("textbook, {} even bands", text.samples);
-    way.bands = static_cast<int>(text.samples);
-    way.bytes = text.samples * sizeof(float);
-    way.run = [book, &text] {
-      text.add(book->scene, book->radiance.data(), book->weight.data(), book->pixel.data(), book->film.data(),
-               kWayLanes);
+    MethodRun method;
+    method.family = "AoS baseline";
+    method.name = fmt::format("AoS baseline, {} even bands", job.samples);
+    method.bands = static_cast<int>(job.samples);
+    method.bytes = job.samples * sizeof(float);
+    method.run = [baseline, &job] {
+      job.add(baseline->scene, baseline->radiance.data(), baseline->weight.data(), baseline->pixel.data(),
+              baseline->film.data(), kMethodLanes);
     };
-    way.result = [book](std::size_t lane) {
-      const TextbookPixel& p = book->film[lane];
+    method.result = [baseline](std::size_t lane) {
+      const AosPixel& p = baseline->film[lane];
       Xyz out{};
-      for (std::size_t k = 0; k < 3; ++k) out[k] = p.xyz[k] / p.weight / book->white_y;
+      for (std::size_t k = 0; k < 3; ++k) out[k] = p.xyz[k] / p.weight / baseline->white_y;
       return out;
     };
-    ways.push_back(std::move(way));
+    methods.push_back(std::move(method));
   }
   return {};
 }
 
 }  // namespace
 
-Result<std::vector<Way>> film_ways(const WayScene& scene, bool quick) {
-  std::vector<Way> ways;
-  SPECTILE_TRY(add_textbook(scene, ways));
+Result<std::vector<MethodRun>> film_methods(const MethodScene& scene, bool quick) {
+  std::vector<MethodRun> methods;
+  SPECTILE_TRY(add_aos_baseline(scene, methods));
   for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
     SPECTILE_ASSIGN(auto bands, Bands::parse(text));
     const bool wide = bands.list().front().lower_nm < 400;
     SPECTILE_TRY(add_bands(scene, bands, "even bands",
-                           fmt::format("{} even bands{}", bands.count(), wide ? " to 780 nm" : ""), ways));
+                           fmt::format("{} even bands{}", bands.count(), wide ? " to 780 nm" : ""), methods));
   }
   for (const Bands& bands : scene.planned) {
     SPECTILE_TRY(
-        add_bands(scene, bands, "planned bands", fmt::format("{} planned bands", bands.count()), ways));
+        add_bands(scene, bands, "planned bands", fmt::format("{} planned bands", bands.count()), methods));
   }
-  if (!quick) SPECTILE_TRY(add_wavelengths(scene, ways));
-  return ways;
+  if (!quick) SPECTILE_TRY(add_wavelengths(scene, methods));
+  return methods;
 }
 
 }  // namespace spectile::measure

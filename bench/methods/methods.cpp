@@ -1,4 +1,4 @@
-// Run time against error: timing and judging ways, the frontier, and what follows from it in words.
+// Run time against error: timing and evaluating methods, the frontier, and what follows from it in words.
 #include "bench/methods/methods.hpp"
 
 #include <fmt/format.h>
@@ -38,45 +38,46 @@ Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quic
   return out;
 }
 
-std::vector<WaySpeed> measure_ways(const std::string& job, const WayScene& scene, std::vector<Way>& ways,
-                                   const Patience& patience, const std::vector<WaySpeed>& earlier) {
-  const auto known = [&](const Way& way) {
+std::vector<MethodSpeed> measure_methods(const std::string& job, const MethodScene& scene,
+                                         std::vector<MethodRun>& methods, const TimingBudget& timing,
+                                         const std::vector<MethodSpeed>& earlier) {
+  const auto known = [&](const MethodRun& method) {
     return std::find_if(earlier.begin(), earlier.end(),
-                        [&](const WaySpeed& e) { return e.job == job && e.name == way.name; });
+                        [&](const MethodSpeed& e) { return e.job == job && e.name == method.name; });
   };
-  std::vector<Timed> timed(ways.size());
+  std::vector<Timed> timed(methods.size());
   std::vector<Timed*> work;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    timed[i].run = ways[i].run;
-    if (known(ways[i]) == earlier.end()) {
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    timed[i].run = methods[i].run;
+    if (known(methods[i]) == earlier.end()) {
       work.push_back(&timed[i]);
     } else {
-      ways[i].run();  // the time is known, the colours are not
+      methods[i].run();  // the time is known, the colours are not
     }
   }
-  time_in_turn(work, patience);
-  std::vector<WaySpeed> out;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const Way& way = ways[i];
-    WaySpeed w;
+  time_in_turn(work, timing);
+  std::vector<MethodSpeed> out;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const MethodRun& method = methods[i];
+    MethodSpeed w;
     w.job = job;
     w.light = scene.light->name;
-    w.spiky = scene.light->spiky;
-    w.family = way.family;
-    w.name = way.name;
-    w.bands = way.bands;
-    w.bytes = way.bytes;
-    const auto before = known(way);
+    w.line_spectrum = scene.light->line_spectrum;
+    w.family = method.family;
+    w.name = method.name;
+    w.bands = method.bands;
+    w.bytes = method.bytes;
+    const auto before = known(method);
     if (before == earlier.end()) {
-      w.nanoseconds = 1e9 * timed[i].seconds / static_cast<double>(kWayLanes) * way.per_lane;
+      w.nanoseconds = 1e9 * timed[i].seconds / static_cast<double>(kMethodLanes) * method.per_lane;
       w.spread = timed[i].spread;
     } else {
       w.nanoseconds = before->nanoseconds;
       w.spread = before->spread;
     }
     ErrorList errors(scene.light->white);
-    for (std::size_t r = 0; r < std::min(kWayLanes, scene.reflectances->size()); ++r) {
-      errors.add(true_xyz(*scene.light, {&(*scene.reflectances)[r]}), way.result(r));
+    for (std::size_t r = 0; r < std::min(kMethodLanes, scene.reflectances->size()); ++r) {
+      errors.add(reference_xyz(*scene.light, {&(*scene.reflectances)[r]}), method.result(r));
     }
     w.error = errors.summary();
     out.push_back(std::move(w));
@@ -84,9 +85,9 @@ std::vector<WaySpeed> measure_ways(const std::string& job, const WayScene& scene
   return out;
 }
 
-void mark_frontier(std::vector<WaySpeed>& ways) {
-  for (WaySpeed& w : ways) {
-    w.frontier = std::none_of(ways.begin(), ways.end(), [&](const WaySpeed& other) {
+void mark_frontier(std::vector<MethodSpeed>& methods) {
+  for (MethodSpeed& w : methods) {
+    w.frontier = std::none_of(methods.begin(), methods.end(), [&](const MethodSpeed& other) {
       if (other.job != w.job || other.light != w.light || &other == &w) return false;
       const bool as_good = other.nanoseconds <= w.nanoseconds && other.error.mean <= w.error.mean;
       return as_good && (other.nanoseconds < w.nanoseconds || other.error.mean < w.error.mean);
@@ -94,18 +95,18 @@ void mark_frontier(std::vector<WaySpeed>& ways) {
   }
 }
 
-std::vector<BenchmarkAdvice> advice_on(const std::vector<WaySpeed>& ways) {
-  // What can be seen at all, what a careful observer sees side by side, what instruments see.
+std::vector<BenchmarkAdvice> advice_on(const std::vector<MethodSpeed>& methods) {
+  // Visible at all; visible side by side to a careful observer; seen by instruments.
   constexpr double kErrors[] = {2, 1, 0.5, 0.2, 0.1, 0.05};
-  std::map<std::pair<std::string, std::string>, std::vector<const WaySpeed*>> groups;
-  for (const WaySpeed& w : ways) groups[{w.job, w.light}].push_back(&w);
+  std::map<std::pair<std::string, std::string>, std::vector<const MethodSpeed*>> groups;
+  for (const MethodSpeed& w : methods) groups[{w.job, w.light}].push_back(&w);
   std::vector<BenchmarkAdvice> out;
   for (const auto& [key, group] : groups) {
     const BenchmarkAdvice about{key.first, key.second, {}};
     const auto say = [&out, &about](std::string sentence) {
       out.push_back({about.job, about.light, std::move(sentence)});
     };
-    const WaySpeed* last = nullptr;
+    const MethodSpeed* last = nullptr;
     double asked = 0;
     const auto flush = [&] {
       if (last == nullptr) return;
@@ -114,16 +115,16 @@ std::vector<BenchmarkAdvice> advice_on(const std::vector<WaySpeed>& ways) {
                       last->error.maximum));
     };
     for (const double error : kErrors) {
-      const WaySpeed* best = nullptr;
-      for (const WaySpeed* w : group) {
+      const MethodSpeed* best = nullptr;
+      for (const MethodSpeed* w : group) {
         if (w->error.mean <= error && (best == nullptr || w->nanoseconds < best->nanoseconds)) best = w;
       }
-      // One sentence for all the errors that one way is the answer to: that of the least.
+      // One sentence for all the errors that one method is the answer to: that of the least.
       if (last != nullptr && best != last) flush();
       if (best == nullptr) {
-        const WaySpeed* least = *std::min_element(
+        const MethodSpeed* least = *std::min_element(
             group.begin(), group.end(),
-            [](const WaySpeed* a, const WaySpeed* b) { return a->error.mean < b->error.mean; });
+            [](const MethodSpeed* a, const MethodSpeed* b) { return a->error.mean < b->error.mean; });
         say(fmt::format("None has a mean error below {}: the least is {:.3f}, of {}, {:.3g} ns.", error,
                         least->error.mean, least->name, least->nanoseconds));
         last = nullptr;

@@ -1,4 +1,4 @@
-// Run time against error: every way of doing a job is one point.
+// Run time against error: every method of doing a job is one point.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace spectile::measure {
 
-/// Lanes that a way works on at once: a tile that stays in the second-level cache at 60 bands.
-inline constexpr std::size_t kWayLanes = 2048;
+/// Lanes that a method works on at once: a tile that stays in the second-level cache at 60 bands.
+inline constexpr std::size_t kMethodLanes = 2048;
 
-/// One way, ready to run: kWayLanes lanes, of which lane i is of reflectance i modulo their number.
-struct Way {
+/// One method, ready to run: kWayLanes lanes, of which lane i is of reflectance i modulo their number.
+struct MethodRun {
   std::string family, name;
   int bands = 0;
   std::uint64_t bytes = 0;
@@ -27,42 +27,44 @@ struct Way {
   std::shared_ptr<void> kept;
 };
 
-/// What the jobs are done with.
-struct WayScene {
-  const std::vector<TrueReflectance>* reflectances = nullptr;
-  const TrueLight* light = nullptr;
+/// Inputs of the jobs.
+struct MethodScene {
+  const std::vector<ReferenceReflectance>* reflectances = nullptr;
+  const ReferenceLight* light = nullptr;
   const kernels::KernelTable* table = nullptr;
   std::vector<Bands> planned;  ///< for this light; see planned_bands_for()
   std::uint64_t seed = 1;
 };
 
 inline constexpr const char* kRgbJob =
-    "RGB texture, under a light, to a colour; the truth is the measured reflectance under the light, summed "
+    "RGB texture, under a light, to a colour; the reference is the measured reflectance under the light, "
+    "summed "
     "at "
-    "every nanometre in double, and all that a way is given is its RGB under D65";
+    "every nanometre in double, and all that a method is given is its RGB under D65";
 inline constexpr const char* kFilmJob =
-    "Spectral samples, under a light, to a film; the truth is the measured reflectance under the light, "
+    "Spectral samples, under a light, to a film; the reference is the measured reflectance under the light, "
     "summed at "
-    "every nanometre in double, and a way is given its averages over bands, or its values at drawn "
+    "every nanometre in double, and a method is given its averages over bands, or its values at drawn "
     "wavelengths";
 
 /// Bands planned for a light, for the spectra that sigmoids make of colours of sRGB: none of the measured
 /// reflectances that errors are over. Errors: as make_plan().
 Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quick);
 
-/// Every way for one light. Errors: as those that make them.
-Result<std::vector<Way>> rgb_ways(const WayScene& scene, bool quick);
-Result<std::vector<Way>> film_ways(const WayScene& scene, bool quick);
+/// Every method for one light. Errors: as those that make them.
+Result<std::vector<MethodRun>> rgb_methods(const MethodScene& scene, bool quick);
+Result<std::vector<MethodRun>> film_methods(const MethodScene& scene, bool quick);
 
-/// Times them in turn and judges them; `times` of an earlier light are taken where a way of that name is in
-/// it.
-std::vector<WaySpeed> measure_ways(const std::string& job, const WayScene& scene, std::vector<Way>& ways,
-                                   const Patience& patience, const std::vector<WaySpeed>& earlier);
+/// Times them in turn and evaluates them; `times` of an earlier light are taken where a method of that name
+/// is in it.
+std::vector<MethodSpeed> measure_methods(const std::string& job, const MethodScene& scene,
+                                         std::vector<MethodRun>& methods, const TimingBudget& timing,
+                                         const std::vector<MethodSpeed>& earlier);
 
 /// Marks those of a job and a light that no other beats or equals in both time and mean error.
-void mark_frontier(std::vector<WaySpeed>& ways);
+void mark_frontier(std::vector<MethodSpeed>& methods);
 
 /// Which to take, in words, for each job and light.
-std::vector<BenchmarkAdvice> advice_on(const std::vector<WaySpeed>& ways);
+std::vector<BenchmarkAdvice> advice_on(const std::vector<MethodSpeed>& methods);
 
 }  // namespace spectile::measure

@@ -1,4 +1,4 @@
-// The truth that ways of computing a colour are held to: sums at every nanometre in double.
+// Reference colours, which methods are evaluated against: sums at every nanometre in double.
 #include "bench/methods/reference_colors.hpp"
 
 #include <algorithm>
@@ -38,14 +38,14 @@ bool has_lines(const std::vector<double>& light) {
 
 }  // namespace
 
-Result<TrueLight> true_light(const std::string& name) {
+Result<ReferenceLight> reference_light(const std::string& name) {
   SPECTILE_ASSIGN(auto found, illuminant(name));
   const std::vector<double> power = on_grid([&](double nm) { return found.at(nm); });
-  TrueLight out{name, found, {}, {}, has_lines(power)};
+  ReferenceLight out{name, found, {}, {}, has_lines(power)};
   const char* const curves[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t k = 0; k < 3; ++k) {
     SPECTILE_ASSIGN(const auto curve, named_spectrum(curves[k]));
-    out.weights[k] = on_grid([&](double nm) { return (curve)(nm); });
+    out.weights[k] = on_grid([&](double nm) { return curve(nm); });
     for (std::size_t i = 0; i < kGrid; ++i) out.weights[k][i] *= power[i];
   }
   const double y = std::accumulate(out.weights[1].begin(), out.weights[1].end(), 0.0);
@@ -67,8 +67,8 @@ Result<std::vector<Spectrum>> chart_reflectances() {
   return out;
 }
 
-Result<std::vector<TrueReflectance>> true_reflectances(const std::vector<Spectrum>& spectra) {
-  std::vector<TrueReflectance> out;
+Result<std::vector<ReferenceReflectance>> reference_reflectances(const std::vector<Spectrum>& spectra) {
+  std::vector<ReferenceReflectance> out;
   for (const Spectrum& spectrum : spectra) {
     std::vector<double> nm;
     std::vector<double> values;
@@ -81,26 +81,26 @@ Result<std::vector<TrueReflectance>> true_reflectances(const std::vector<Spectru
     }
     for (double& v : values) v = std::clamp(v, 0.0, 1.0);
     SPECTILE_ASSIGN(auto measured, MeasuredSpectrum::from_samples(nm, values));
-    TrueReflectance one{std::move(measured), {}};
+    ReferenceReflectance one{std::move(measured), {}};
     one.values = on_grid([&](double at) { return one.spectrum.at(at); });
     out.push_back(std::move(one));
   }
-  if (out.empty()) return make_error(ErrorCode::kBadArgument, "no reflectances to judge colours by");
+  if (out.empty()) return make_error(ErrorCode::kBadArgument, "no reflectances to evaluate colours with");
   return out;
 }
 
-Xyz true_xyz(const TrueLight& light, const std::vector<const TrueReflectance*>& reflectances) {
+Xyz reference_xyz(const ReferenceLight& light, const std::vector<const ReferenceReflectance*>& reflectances) {
   Xyz out{};
   for (std::size_t i = 0; i < kGrid; ++i) {
     double product = 1;
-    for (const TrueReflectance* r : reflectances) product *= r->values[i];
+    for (const ReferenceReflectance* r : reflectances) product *= r->values[i];
     for (std::size_t k = 0; k < 3; ++k) out[k] += light.weights[k][i] * product;
   }
   return out;
 }
 
-void ErrorList::add(const Xyz& truth, const Xyz& found) {
-  values_.push_back(ciede2000(xyz_to_lab(truth, white_), xyz_to_lab(found, white_)));
+void ErrorList::add(const Xyz& reference, const Xyz& found) {
+  values_.push_back(ciede2000(xyz_to_lab(reference, white_), xyz_to_lab(found, white_)));
 }
 
 ColorError ErrorList::summary() const {

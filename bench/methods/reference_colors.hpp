@@ -1,4 +1,4 @@
-// The truth that ways of computing a colour are held to: sums at every nanometre in double.
+// Reference colours, which methods are evaluated against: sums at every nanometre in double.
 #pragma once
 
 #include <array>
@@ -12,35 +12,35 @@ namespace spectile::measure {
 
 using Xyz = std::array<double, 3>;
 
-/// A light, on the scale on which a white reflector under it has Y = 1.
-struct TrueLight {
+/// A light, on the scale on which the perfect diffuser under it has Y = 1.
+struct ReferenceLight {
   std::string name;
   MeasuredSpectrum spectrum;
   std::vector<double> weights[3];  ///< matching function times light at 360, 361, ... 830 nm
   Xyz white{};
-  bool spiky = false;  ///< somewhere twice its mean over the 40 nm around
+  bool line_spectrum = false;  ///< somewhere twice its mean over the 40 nm around
 };
 
 /// Reflectances as they were measured, limited to [0, 1], constant beyond their ends.
-struct TrueReflectance {
+struct ReferenceReflectance {
   MeasuredSpectrum spectrum;
   std::vector<double> values;  ///< at 360, 361, ... 830 nm
 };
 
 /// Errors: kBadArgument for a light without luminance.
-Result<TrueLight> true_light(const std::string& name);
-Result<std::vector<TrueReflectance>> true_reflectances(const std::vector<Spectrum>& spectra);
+Result<ReferenceLight> reference_light(const std::string& name);
+Result<std::vector<ReferenceReflectance>> reference_reflectances(const std::vector<Spectrum>& spectra);
 /// The 24 of the ColorChecker.
 Result<std::vector<Spectrum>> chart_reflectances();
 
 /// XYZ of the product of reflectances under a light.
-Xyz true_xyz(const TrueLight& light, const std::vector<const TrueReflectance*>& reflectances);
+Xyz reference_xyz(const ReferenceLight& light, const std::vector<const ReferenceReflectance*>& reflectances);
 
 /// Colours whose errors are collected.
 class ErrorList {
  public:
   explicit ErrorList(const Xyz& white) : white_(white) {}
-  void add(const Xyz& truth, const Xyz& found);
+  void add(const Xyz& reference, const Xyz& found);
   ColorError summary() const;
 
  private:

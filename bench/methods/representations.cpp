@@ -18,7 +18,7 @@ constexpr int kMaxBounces = 5;
 /// Paths that errors are over; lane i is of path i modulo their number.
 constexpr std::size_t kPaths = 512;
 
-/// Coefficients of the reflectances and the way from products of them to XYZ.
+/// Coefficients of the reflectances and the projection from products of them to XYZ.
 struct Representation {
   std::string name;
   std::size_t count = 0;
@@ -26,9 +26,10 @@ struct Representation {
   std::vector<std::array<double, 3>> weights;    ///< [count], the light's included; its white has Y = 1
 };
 
-Representation on_bands(std::string name, const Bands& bands, const WayScene& scene, const Projector& under) {
+Representation on_bands(std::string name, const Bands& bands, const MethodScene& scene,
+                        const Projector& under) {
   Representation out{std::move(name), bands.count(), {}, {}};
-  for (const TrueReflectance& r : *scene.reflectances) {
+  for (const ReferenceReflectance& r : *scene.reflectances) {
     std::vector<float> samples;
     for (std::size_t b = 0; b < bands.count(); ++b) {
       samples.push_back(static_cast<float>(sample_in(r.spectrum, bands, b)));
@@ -40,21 +41,21 @@ Representation on_bands(std::string name, const Bands& bands, const WayScene& sc
 }
 
 /// Linear sRGB under D65 of each reflectance.
-Result<std::vector<std::array<float, 3>>> colors_of(const WayScene& scene) {
-  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+Result<std::vector<std::array<float, 3>>> path_colors(const MethodScene& scene) {
+  SPECTILE_ASSIGN(auto d65, reference_light("D65"));
   const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65.white));
   std::vector<std::array<float, 3>> out;
-  for (const TrueReflectance& r : *scene.reflectances) {
-    const Xyz rgb = times(matrix, true_xyz(d65, {&r}));
+  for (const ReferenceReflectance& r : *scene.reflectances) {
+    const Xyz rgb = times(matrix, reference_xyz(d65, {&r}));
     out.push_back({static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
   }
   return out;
 }
 
-Result<std::vector<Representation>> representations_for(const WayScene& scene) {
+Result<std::vector<Representation>> representations_for(const MethodScene& scene) {
   std::vector<Representation> out;
-  SPECTILE_ASSIGN(const auto colors, colors_of(scene));
-  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+  SPECTILE_ASSIGN(const auto colors, path_colors(scene));
+  SPECTILE_ASSIGN(auto d65, reference_light("D65"));
   Representation rgb{"RGB", 3, {}, {}};
   const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65.white);
   const Xyz light = times(inverse(to_xyz), scene.light->white);
@@ -77,7 +78,7 @@ Result<std::vector<Representation>> representations_for(const WayScene& scene) {
     out.push_back(on_bands(name, bands, scene, under));
   }
 
-  // What a renderer has that is given RGB: spectra of sigmoids.
+  // A renderer that is given RGB has the spectra of sigmoids.
   const Bands bands;
   SPECTILE_ASSIGN(auto under, Projector::reflective(bands, scene.light->spectrum));
   SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, bands));
@@ -105,8 +106,8 @@ struct Lanes {
   std::size_t count = 0;
 };
 
-Result<std::shared_ptr<Lanes>> lanes_of(const Representation& r,
-                                        const std::vector<std::vector<std::size_t>>& paths) {
+Result<std::shared_ptr<Lanes>> representation_lanes(const Representation& r,
+                                                    const std::vector<std::vector<std::size_t>>& paths) {
   auto out = std::make_shared<Lanes>();
   out->count = r.count;
   const auto make = [](FloatBuffer& to, std::size_t floats) -> Result<void> {
@@ -114,8 +115,8 @@ Result<std::shared_ptr<Lanes>> lanes_of(const Representation& r,
     return {};
   };
   for (std::size_t bounce = 0; bounce < kMaxBounces; ++bounce) {
-    SPECTILE_TRY(make(out->bounces[bounce], kWayLanes * r.count));
-    for (std::size_t lane = 0; lane < kWayLanes; ++lane) {
+    SPECTILE_TRY(make(out->bounces[bounce], kMethodLanes * r.count));
+    for (std::size_t lane = 0; lane < kMethodLanes; ++lane) {
       const std::vector<float>& samples = r.reflectances[paths[lane % kPaths][bounce]];
       for (std::size_t b = 0; b < r.count; ++b) {
         out->bounces[bounce]
@@ -124,8 +125,8 @@ Result<std::shared_ptr<Lanes>> lanes_of(const Representation& r,
       }
     }
   }
-  SPECTILE_TRY(make(out->product, kWayLanes * r.count));
-  SPECTILE_TRY(make(out->xyz, 3 * kWayLanes));
+  SPECTILE_TRY(make(out->product, kMethodLanes * r.count));
+  SPECTILE_TRY(make(out->xyz, 3 * kMethodLanes));
   SPECTILE_TRY(make(out->weights, 4 * r.count));
   for (std::size_t b = 0; b < r.count; ++b) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -138,18 +139,18 @@ Result<std::shared_ptr<Lanes>> lanes_of(const Representation& r,
 void run_paths(const kernels::KernelTable& k, Lanes& lanes, int bounces) {
   const float* product = lanes.bounces[0].data();
   for (int bounce = 1; bounce < bounces; ++bounce) {
-    k.multiply(lanes.product.data(), product, lanes.bounces[bounce].data(), kWayLanes * lanes.count);
+    k.multiply(lanes.product.data(), product, lanes.bounces[bounce].data(), kMethodLanes * lanes.count);
     product = lanes.product.data();
   }
   float* const xyz = lanes.xyz.data();
-  k.project(xyz, xyz + kWayLanes, xyz + 2 * kWayLanes, product, lanes.weights.data(), lanes.count,
-            blocks_for(kWayLanes));
+  k.project(xyz, xyz + kMethodLanes, xyz + 2 * kMethodLanes, product, lanes.weights.data(), lanes.count,
+            blocks_for(kMethodLanes));
 }
 
 }  // namespace
 
-Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene& scene,
-                                                                 const Patience& patience) {
+Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& scene,
+                                                                 const TimingBudget& timing) {
   SPECTILE_ASSIGN(const auto made, representations_for(scene));
   std::mt19937_64 random(scene.seed);
   std::vector<std::vector<std::size_t>> paths(kPaths);
@@ -160,7 +161,7 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene&
   std::vector<std::shared_ptr<Lanes>> lanes;
   std::vector<Timed> timed;
   for (const Representation& r : made) {
-    SPECTILE_ASSIGN(auto own, lanes_of(r, paths));
+    SPECTILE_ASSIGN(auto own, representation_lanes(r, paths));
     lanes.push_back(std::move(own));
     for (int bounces = 1; bounces <= kMaxBounces; ++bounces) {
       Timed t;
@@ -171,29 +172,29 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene&
   std::vector<Timed*> work;
   work.reserve(timed.size());
   for (Timed& t : timed) work.push_back(&t);
-  time_in_turn(work, patience);
+  time_in_turn(work, timing);
   for (std::size_t i = 0; i < made.size(); ++i) {
     for (int bounces = 1; bounces <= kMaxBounces; ++bounces) {
       run_paths(*scene.table, *lanes[i], bounces);
       ErrorList errors(scene.light->white);
       for (std::size_t p = 0; p < kPaths; ++p) {
-        std::vector<const TrueReflectance*> along;
+        std::vector<const ReferenceReflectance*> along;
         along.reserve(kMaxBounces);
         for (int b = 0; b < bounces; ++b)
           along.push_back(&(*scene.reflectances)[paths[p][static_cast<std::size_t>(b)]]);
         Xyz found{};
         for (std::size_t k = 0; k < 3; ++k)
-          found[k] = static_cast<double>(lanes[i]->xyz.data()[k * kWayLanes + p]);
-        errors.add(true_xyz(*scene.light, along), found);
+          found[k] = static_cast<double>(lanes[i]->xyz.data()[k * kMethodLanes + p]);
+        errors.add(reference_xyz(*scene.light, along), found);
       }
       const Timed& t = timed[i * kMaxBounces + static_cast<std::size_t>(bounces - 1)];
       RepresentationSpeed one;
       one.light = scene.light->name;
-      one.spiky = scene.light->spiky;
+      one.line_spectrum = scene.light->line_spectrum;
       one.name = (made)[i].name;
       one.coefficients = static_cast<int>((made)[i].count);
       one.bounces = bounces;
-      one.nanoseconds = 1e9 * t.seconds / static_cast<double>(kWayLanes);
+      one.nanoseconds = 1e9 * t.seconds / static_cast<double>(kMethodLanes);
       one.spread = t.spread;
       one.error = errors.summary();
       out.push_back(std::move(one));

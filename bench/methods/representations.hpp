@@ -10,7 +10,7 @@ namespace spectile::measure {
 /// Paths of 1 to 5 reflectances drawn at random, under the scene's light: three numbers, 30 and 60 even
 /// bands, planned bands, and 60 bands of sigmoids made of the reflectances' RGB. Errors: as those that make
 /// them.
-Result<std::vector<RepresentationSpeed>> measure_representations(const WayScene& scene,
-                                                                 const Patience& patience);
+Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& scene,
+                                                                 const TimingBudget& timing);
 
 }  // namespace spectile::measure

@@ -7,7 +7,7 @@
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
-#include "bench/methods/aos_baseline.hpp"
+#include "bench/baseline/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
@@ -17,22 +17,22 @@ namespace {
 
 using kernels::KernelTable;
 
-/// What all ways of a light start from: linear sRGB of the reflectances under D65, limited to the cube.
+/// Common input of all methods under a light: linear sRGB of the reflectances under D65, limited to the cube.
 struct Texture {
   ColorLanes rgb;
   std::vector<float> interleaved;
 };
 
-Result<std::shared_ptr<const Texture>> texture_of(const WayScene& scene) {
-  SPECTILE_ASSIGN(auto d65, true_light("D65"));
-  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(kWayLanes));
+Result<std::shared_ptr<const Texture>> make_texture(const MethodScene& scene) {
+  SPECTILE_ASSIGN(auto d65, reference_light("D65"));
+  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(kMethodLanes));
   auto out = std::make_shared<Texture>();
-  out->interleaved.resize(3 * kWayLanes);
+  out->interleaved.resize(3 * kMethodLanes);
   // White as the light itself has it, so that grey is grey.
   const Matrix3 matrix = inverse(rgb_to_xyz(kRec709, d65.white));
-  for (std::size_t i = 0; i < kWayLanes; ++i) {
+  for (std::size_t i = 0; i < kMethodLanes; ++i) {
     const auto& r = (*scene.reflectances)[i % scene.reflectances->size()];
-    const Xyz color = times(matrix, true_xyz(d65, {&r}));
+    const Xyz color = times(matrix, reference_xyz(d65, {&r}));
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<float>(std::clamp(color[k], 0.0, 1.0));
       rgb.at(i, k) = v;
@@ -43,7 +43,7 @@ Result<std::shared_ptr<const Texture>> texture_of(const WayScene& scene) {
   return std::shared_ptr<const Texture>(std::move(out));
 }
 
-/// What a way works with.
+/// Buffers and tables of a method.
 struct State {
   std::shared_ptr<const Texture> texture;
   std::shared_ptr<const Upsampler> upsampler;
@@ -56,41 +56,41 @@ struct State {
 };
 
 struct Maker {
-  const WayScene& scene;
+  const MethodScene& scene;
   std::shared_ptr<const Texture> texture;
-  std::vector<Way>& ways;
+  std::vector<MethodRun>& methods;
 
   Result<std::shared_ptr<State>> state_for(const std::shared_ptr<const Upsampler>& upsampler) const {
     auto s = std::make_shared<State>();
     s->texture = texture;
     s->upsampler = upsampler;
     SPECTILE_ASSIGN(s->projector, Projector::reflective(upsampler->bands(), scene.light->spectrum));
-    SPECTILE_ASSIGN(auto spectra, FloatBuffer::create(kWayLanes * upsampler->bands().count()));
+    SPECTILE_ASSIGN(auto spectra, FloatBuffer::create(kMethodLanes * upsampler->bands().count()));
     s->spectra = std::move(spectra);
-    SPECTILE_ASSIGN(s->coefficients, FloatBuffer::create(3 * kWayLanes));
+    SPECTILE_ASSIGN(s->coefficients, FloatBuffer::create(3 * kMethodLanes));
     s->halves.resize(s->spectra.size());
-    s->unsolved.resize(blocks_for(kWayLanes));
-    SPECTILE_ASSIGN(s->xyz, ColorLanes::create(kWayLanes));
+    s->unsolved.resize(blocks_for(kMethodLanes));
+    SPECTILE_ASSIGN(s->xyz, ColorLanes::create(kMethodLanes));
     return s;
   }
 
   void add(const std::shared_ptr<State>& s, std::string family, std::string name, std::uint64_t bytes,
            std::function<void(const KernelTable&, State&)> work) {
-    Way way;
-    way.family = std::move(family);
-    way.name = std::move(name);
-    way.bands = static_cast<int>(s->upsampler->bands().count());
-    way.bytes = bytes;
-    way.run = [s, work = std::move(work), table = scene.table] { work(*table, *s); };
-    way.result = [s](std::size_t lane) {
+    MethodRun method;
+    method.family = std::move(family);
+    method.name = std::move(name);
+    method.bands = static_cast<int>(s->upsampler->bands().count());
+    method.bytes = bytes;
+    method.run = [s, work = std::move(work), table = scene.table] { work(*table, *s); };
+    method.result = [s](std::size_t lane) {
       return Xyz{static_cast<double>(s->xyz.at(lane, 0)), static_cast<double>(s->xyz.at(lane, 1)),
                  static_cast<double>(s->xyz.at(lane, 2))};
     };
-    ways.push_back(std::move(way));
+    methods.push_back(std::move(method));
   }
 };
 
-const float* const* rgb_of(const State& s, const float* (&to)[3]) {
+const float* const* rgb_pointers(const State& s, const float* (&to)[3]) {
   for (std::size_t k = 0; k < 3; ++k) to[k] = s.texture->rgb.view().c[k];
   return to;
 }
@@ -98,7 +98,7 @@ const float* const* rgb_of(const State& s, const float* (&to)[3]) {
 void sum_up(const KernelTable& k, State& s) {
   const ColorSpan xyz = s.xyz.span();
   k.project(xyz.c[0], xyz.c[1], xyz.c[2], s.spectra.data(), s.projector->float_weights(),
-            s.upsampler->bands().count(), blocks_for(kWayLanes));
+            s.upsampler->bands().count(), blocks_for(kMethodLanes));
 }
 
 void through_halves(const KernelTable& k, State& s) {
@@ -108,39 +108,39 @@ void through_halves(const KernelTable& k, State& s) {
 
 void mix(const KernelTable& k, State& s) {
   const float* rgb[3];
-  k.smits_blocks(s.spectra.data(), rgb_of(s, rgb), s.upsampler->table(), s.upsampler->lowest(),
-                 s.upsampler->bands().count(), blocks_for(kWayLanes), false);
+  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb), s.upsampler->table(), s.upsampler->lowest(),
+                 s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
 }
 
 void solve(const KernelTable& k, State& s) {
   const float* rgb[3];
-  float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kWayLanes,
-                       s.coefficients.data() + 2 * kWayLanes};
-  k.sigmoid_solve(c, rgb_of(s, rgb), s.upsampler->sigmoid()->table, s.unsolved.data(), kWayLanes);
+  float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kMethodLanes,
+                       s.coefficients.data() + 2 * kMethodLanes};
+  k.sigmoid_solve(c, rgb_pointers(s, rgb), s.upsampler->sigmoid()->table, s.unsolved.data(), kMethodLanes);
 }
 
-const float* const* coefficients_of(State& s, const float* (&to)[3]) {
-  for (std::size_t k = 0; k < 3; ++k) to[k] = s.coefficients.data() + k * kWayLanes;
+const float* const* coefficient_pointers(State& s, const float* (&to)[3]) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] = s.coefficients.data() + k * kMethodLanes;
   return to;
 }
 
 void evaluate(const KernelTable& k, State& s) {
   const float* c[3];
-  k.sigmoid_blocks(s.spectra.data(), coefficients_of(s, c), nullptr, s.upsampler->sigmoid()->table.rows,
-                   false, s.upsampler->bands().count(), blocks_for(kWayLanes), false);
+  k.sigmoid_blocks(s.spectra.data(), coefficient_pointers(s, c), nullptr, s.upsampler->sigmoid()->table.rows,
+                   false, s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
 }
 
 void sum_sigmoid(const KernelTable& k, State& s) {
   const float* c[3];
   const ColorSpan xyz = s.xyz.span();
-  k.sigmoid_project(xyz.c, coefficients_of(s, c), nullptr, s.upsampler->sigmoid()->table.rows, false,
-                    s.projector->float_weights(), s.upsampler->bands().count(), kWayLanes);
+  k.sigmoid_project(xyz.c, coefficient_pointers(s, c), nullptr, s.upsampler->sigmoid()->table.rows, false,
+                    s.projector->float_weights(), s.upsampler->bands().count(), kMethodLanes);
 }
 
-/// A method on some bands, in every way that there is.
+/// A method on some bands, in each of its executions.
 Result<void> add_method(Maker& maker, Method method, const Bands& bands, const std::string& label) {
   auto made = Upsampler::create(method, Quantity::kReflectance, bands);
-  // Bands on which a method cannot be exact are no way.
+  // Bands on which a method cannot be exact are left out.
   if (!made) return {};
   const auto upsampler = std::make_shared<const Upsampler>(*std::move(made));
   SPECTILE_ASSIGN(auto state, maker.state_for(upsampler));
@@ -178,7 +178,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   s->relighter = std::move(relighter);
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
     const float* rgb[3];
-    k.smits_fold(t.xyz.span().c, rgb_of(t, rgb), t.relighter->table().data(), kWayLanes);
+    k.smits_fold(t.xyz.span().c, rgb_pointers(t, rgb), t.relighter->table().data(), kMethodLanes);
   });
   return {};
 }
@@ -188,67 +188,68 @@ Result<void> add_rgb(Maker& maker) {
   SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSmits, Quantity::kReflectance, Bands()));
   SPECTILE_ASSIGN(auto state, maker.state_for(std::make_shared<const Upsampler>(std::move(upsampler))));
   // The light's RGB, and back to XYZ; D65 itself is 1, 1, 1.
-  SPECTILE_ASSIGN(auto d65, true_light("D65"));
+  SPECTILE_ASSIGN(auto d65, reference_light("D65"));
   const Matrix3 to_xyz = rgb_to_xyz(kRec709, d65.white);
   const Xyz light = times(inverse(to_xyz), maker.scene.light->white);
   auto folded = std::make_shared<std::vector<float>>();
   for (std::size_t i = 0; i < 9; ++i) folded->push_back(static_cast<float>(to_xyz[i] * light[i % 3]));
   maker.add(state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
     const float* rgb[3];
-    k.transform3(t.xyz.span().c, rgb_of(t, rgb), folded->data(), kWayLanes);
+    k.transform3(t.xyz.span().c, rgb_pointers(t, rgb), folded->data(), kMethodLanes);
   });
-  maker.ways.back().bands = 0;
+  maker.methods.back().bands = 0;
   return {};
 }
 
-Result<void> add_textbook(Maker& maker) {
-  for (const TextbookWay& text : textbook().ways) {
-    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(text.samples)));
+Result<void> add_aos_baseline(Maker& maker) {
+  for (const AosJob& job : aos_baseline().jobs) {
+    SPECTILE_ASSIGN(auto bands, Bands::uniform(400, 700, 300.0 / static_cast<double>(job.samples)));
     SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSmits, Quantity::kReflectance, bands));
     SPECTILE_ASSIGN(auto observer, Projector::emissive(bands));
-    struct Book {
-      TextbookScene scene{};
+    struct Baseline {
+      AosTables scene{};
       std::vector<float> xyz;
       std::shared_ptr<const Texture> texture;
     };
-    auto book = std::make_shared<Book>();
-    book->texture = maker.texture;
-    book->xyz.resize(3 * kWayLanes);
+    auto baseline = std::make_shared<Baseline>();
+    baseline->texture = maker.texture;
+    baseline->xyz.resize(3 * kMethodLanes);
     const std::vector<float> light = maker.scene.light->spectrum.average_over(bands);
     double y = 0;
-    for (std::size_t i = 0; i < text.samples; ++i)
+    for (std::size_t i = 0; i < job.samples; ++i)
       y += observer.weights()[i][1] * static_cast<double>(light[i]);
-    for (std::size_t i = 0; i < text.samples; ++i) {
+    for (std::size_t i = 0; i < job.samples; ++i) {
       for (std::size_t k = 0; k < 7; ++k)
-        book->scene.basis[k][i] = static_cast<float>(upsampler.basis()[i][k]);
+        baseline->scene.basis[k][i] = static_cast<float>(upsampler.basis()[i][k]);
       for (std::size_t k = 0; k < 3; ++k) {
-        book->scene.matching[k][i] = static_cast<float>(observer.weights()[i][k]);
+        baseline->scene.matching[k][i] = static_cast<float>(observer.weights()[i][k]);
       }
-      book->scene.light[i] = static_cast<float>(static_cast<double>(light[i]) / y);
+      baseline->scene.light[i] = static_cast<float>(static_cast<double>(light[i]) / y);
     }
-    Way way;
-    way.family = "textbook";
-    way.name = fmt::format("textbook, smits, {} even bands", text.samples);
-    way.bands = static_cast<int>(text.samples);
-    way.run = [book, &text] {
-      text.relight(book->scene, book->texture->interleaved.data(), book->xyz.data(), kWayLanes);
+    MethodRun method;
+    method.family = "AoS baseline";
+    method.name = fmt::format("AoS baseline, smits, {} even bands", job.samples);
+    method.bands = static_cast<int>(job.samples);
+    method.run = [baseline, &job] {
+      job.relight(baseline->scene, baseline->texture->interleaved.data(), baseline->xyz.data(), kMethodLanes);
     };
-    way.result = [book](std::size_t lane) {
-      return Xyz{static_cast<double>(book->xyz[3 * lane]), static_cast<double>(book->xyz[3 * lane + 1]),
-                 static_cast<double>(book->xyz[3 * lane + 2])};
+    method.result = [baseline](std::size_t lane) {
+      return Xyz{static_cast<double>(baseline->xyz[3 * lane]),
+                 static_cast<double>(baseline->xyz[3 * lane + 1]),
+                 static_cast<double>(baseline->xyz[3 * lane + 2])};
     };
-    maker.ways.push_back(std::move(way));
+    maker.methods.push_back(std::move(method));
   }
   return {};
 }
 
 }  // namespace
 
-Result<std::vector<Way>> rgb_ways(const WayScene& scene, bool quick) {
-  SPECTILE_ASSIGN(auto texture, texture_of(scene));
-  std::vector<Way> ways;
-  Maker maker{scene, texture, ways};
-  SPECTILE_TRY(add_textbook(maker));
+Result<std::vector<MethodRun>> rgb_methods(const MethodScene& scene, bool quick) {
+  SPECTILE_ASSIGN(auto texture, make_texture(scene));
+  std::vector<MethodRun> methods;
+  Maker maker{scene, texture, methods};
+  SPECTILE_TRY(add_aos_baseline(maker));
   SPECTILE_TRY(add_rgb(maker));
   std::vector<std::pair<Bands, std::string>> lists;
   for (const char* text : {"400:700:18.75", "400:700:10", "400:700:5", "380:780:5"}) {
@@ -265,7 +266,7 @@ Result<std::vector<Way>> rgb_ways(const WayScene& scene, bool quick) {
       SPECTILE_TRY(add_method(maker, method, bands, label));
     }
   }
-  return ways;
+  return methods;
 }
 
 }  // namespace spectile::measure

@@ -25,11 +25,11 @@ Operation sample_operation(std::string name, std::size_t operands) {
 template <class F>
 void rounded_once(Operation& op, F f) {
   op.bound = 1;
-  op.error = judged_by(
+  op.error = error_against(
       1,
-      [f](const double* in, double* truth, double* scale) {
-        truth[0] = f(in);
-        scale[0] = std::abs(truth[0]);
+      [f](const double* in, double* reference, double* scale) {
+        reference[0] = f(in);
+        scale[0] = std::abs(reference[0]);
       },
       1, true, 1);
 }
@@ -39,11 +39,11 @@ template <class F>
 void exact(Operation& op, F f) {
   op.bound = 0;
   op.unit = "exact";
-  op.error = judged_by(
+  op.error = error_against(
       1,
-      [f](const double* in, double* truth, double* scale) {
-        truth[0] = f(in);
-        scale[0] = std::abs(truth[0]);
+      [f](const double* in, double* reference, double* scale) {
+        reference[0] = f(in);
+        scale[0] = std::abs(reference[0]);
       },
       1, true, 0);
 }
@@ -103,10 +103,10 @@ void add_compound(std::vector<Operation>& to) {
   fused.run = [](const KernelTable& k, const Arrays& a) {
     k.multiply_add(a.out(), a.in(0), a.in(1), a.in(2), a.n());
   };
-  fused.error = judged_by(
+  fused.error = error_against(
       1,
-      [](const double* v, double* truth, double* scale) {
-        truth[0] = v[0] * v[1] + v[2];
+      [](const double* v, double* reference, double* scale) {
+        reference[0] = v[0] * v[1] + v[2];
         scale[0] = std::abs(v[0] * v[1]) + std::abs(v[2]);
       },
       2, false, fused.bound);
@@ -117,11 +117,11 @@ void add_compound(std::vector<Operation>& to) {
   lerp.operations = 3;
   lerp.bound = 3;  // 1 - t, a product, the sum
   lerp.run = [](const KernelTable& k, const Arrays& a) { k.lerp(a.out(), a.in(0), a.in(1), kPart, a.n()); };
-  lerp.error = judged_by(
+  lerp.error = error_against(
       1,
-      [](const double* v, double* truth, double* scale) {
+      [](const double* v, double* reference, double* scale) {
         const double t = kPart;
-        truth[0] = (1 - t) * v[0] + t * v[1];
+        reference[0] = (1 - t) * v[0] + t * v[1];
         scale[0] = (1 - t) * std::abs(v[0]) + t * std::abs(v[1]);
       },
       3, false, lerp.bound);
@@ -129,7 +129,7 @@ void add_compound(std::vector<Operation>& to) {
 
   Operation root = sample_operation("sqrt", 1);
   root.divisions = 1;
-  root.binds = "the divider, which takes longer for a root than for a quotient";
+  root.bottleneck = "the divider, which takes longer for a root than for a division";
   root.run = [](const KernelTable& k, const Arrays& a) { k.sqrt(a.out(), a.in(), a.n()); };
   rounded_once(root, [](const double* v) { return std::sqrt(v[0]); });
   to.push_back(std::move(root));
@@ -144,21 +144,20 @@ void add_series(std::vector<Operation>& to) {
   Operation exp = sample_operation("exp", 1);
   exp.operations = kExp;
   exp.fill = uniform_values(1, -10.0F, 10.0F);
-  exp.binds = "two chains of dependent products and sums in double, and the conversions' shuffles";
+  exp.bottleneck = "two chains of dependent multiply-adds in double, and the conversions' shuffles";
   exp.run = [](const KernelTable& k, const Arrays& a) { k.exp(a.out(), a.in(), a.n()); };
   rounded_once(exp, [](const double* v) { return std::exp(v[0]); });
   exp.bound = kSeriesBound;
   to.push_back(std::move(exp));
 
-  constexpr float kPower = 2.4F;  // the exponent of sRGB's encoding
   Operation pow = sample_operation("pow", 1);
-  // On doubles, beside exp's: exponent and mantissa (5), to around 1 (5), the quotient's ends (2), its
+  // On doubles, beside exp's: exponent and mantissa (5), to around 1 (5), the division's ends (2), its
   // square, the series, three more; on floats the special cases.
   pow.operations = kExp + 2 * (5 + 5 + 2 + 1 + 2 * kernels::kAtanhTerms - 1 + 3) + 12;
   pow.divisions = 4;  // one in double
-  pow.binds = "two series one after the other, chains of dependent products and sums in double";
-  pow.run = [](const KernelTable& k, const Arrays& a) { k.pow(a.out(), a.in(), kPower, a.n()); };
-  rounded_once(pow, [](const double* v) { return std::pow(v[0], static_cast<double>(kPower)); });
+  pow.bottleneck = "two series one after the other, chains of dependent multiply-adds in double";
+  pow.run = [](const KernelTable& k, const Arrays& a) { k.pow(a.out(), a.in(), kPowExponent, a.n()); };
+  rounded_once(pow, [](const double* v) { return std::pow(v[0], static_cast<double>(kPowExponent)); });
   pow.bound = kSeriesBound;
   to.push_back(std::move(pow));
 }

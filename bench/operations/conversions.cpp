@@ -54,8 +54,8 @@ void add_conversions(std::vector<Operation>& to) {
     k.float_to_half(a.out<std::uint16_t>(), a.in(), a.n());
   };
   narrow.error = [](const double* in, const double* out, double) {
-    const double truth = std::isfinite(in[0]) ? nearest_half(in[0]) : in[0];
-    return same(truth, out[0]) ? 0.0 : kBeyond;
+    const double reference = std::isfinite(in[0]) ? nearest_half(in[0]) : in[0];
+    return same(reference, out[0]) ? 0.0 : kBeyond;
   };
   to.push_back(std::move(narrow));
 }

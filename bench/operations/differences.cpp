@@ -30,7 +30,7 @@ void add_ciede2000(std::vector<Operation>& to) {
   // Six cube roots, eight square roots, two arc tangents, seven sines and cosines, three exponentials: in
   // double, some twenty operations each, and a hundred others.
   op.operations = 2 * (26 * 20 + 100);
-  op.binds = "the C library's cube roots, arc tangents, sines and cosines, one number at a time";
+  op.bottleneck = "the C library's cube roots, arc tangents, sines and cosines, one number at a time";
   op.fill = uniform_values(6, 0.0F, 1.0F);
   op.run = [](const KernelTable&, const Arrays& a) {
     const ColorView first = {{a.in(0), a.in(1), a.in(2)}, a.n()};
@@ -44,11 +44,11 @@ void add_ciede2000(std::vector<Operation>& to) {
       if (std::isinf(in[k])) return kOutOfDomain;
       if (std::isnan(in[k])) return std::isnan(out[0]) ? 0 : kBeyond;
     }
-    const auto truth = oracle::ciede2000({in[0], in[1], in[2]}, {in[3], in[4], in[5]}, kWhite);
-    if (truth.undecided) return kOutOfDomain;
-    if (!(truth.value < static_cast<double>(std::numeric_limits<float>::max()))) return kOutOfDomain;
-    const double allowed = 0x1p-24 * truth.value + 1e-12 * std::max(1.0, truth.size) + tiny;
-    return std::abs(out[0] - truth.value) / allowed;
+    const auto reference = oracle::ciede2000({in[0], in[1], in[2]}, {in[3], in[4], in[5]}, kWhite);
+    if (reference.undecided) return kOutOfDomain;
+    if (!(reference.value < static_cast<double>(std::numeric_limits<float>::max()))) return kOutOfDomain;
+    const double allowed = 0x1p-24 * reference.value + 1e-12 * std::max(1.0, reference.size) + tiny;
+    return std::abs(out[0] - reference.value) / allowed;
   };
   to.push_back(std::move(op));
 }
@@ -65,7 +65,7 @@ void add_scan(std::vector<Operation>& to) {
   op.unit = "exact";
   // A component: compare with 0, with 1, find out whether it is finite (2), the maximum, join them (3).
   op.operations = 3 * 8 + 3;
-  op.binds = "counting the bits of three masks a vector, and adding them up in memory";
+  op.bottleneck = "counting the bits of three masks a vector, and adding them up in memory";
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.cache_only = true;
   op.run = [](const KernelTable& k, const Arrays& a) {
@@ -74,21 +74,21 @@ void add_scan(std::vector<Operation>& to) {
     k.scan_rgb(&scan, rgb, a.n());
     if (a.blocks * sizeof(std::uint64_t) >= sizeof(scan)) *reinterpret_cast<RgbScan*>(a.target) = scan;
   };
-  op.error_of_run = [](const Arrays& a, bool flushed) {
+  op.run_error = [](const Arrays& a, bool flushed) {
     if (a.blocks * sizeof(std::uint64_t) < sizeof(RgbScan)) return kOutOfDomain;
     const RgbScan& found = *reinterpret_cast<const RgbScan*>(a.target);
-    RgbScan truth;
+    RgbScan reference;
     for (std::size_t i = 0; i < a.n(); ++i) {
       float v[3] = {a.in(0)[i], a.in(1)[i], a.in(2)[i]};
       for (float& x : v) x = flushed && std::abs(x) < std::numeric_limits<float>::min() ? 0.0F : x;
       const auto any = [&](auto is) { return is(v[0]) || is(v[1]) || is(v[2]) ? 1U : 0U; };
-      truth.nonfinite += any([](float x) { return !std::isfinite(x); });
-      truth.negative += any([](float x) { return x < 0; });
-      truth.over_one += any([](float x) { return x > 1; });
-      for (const float x : v) truth.maximum = x > truth.maximum ? x : truth.maximum;
+      reference.nonfinite += any([](float x) { return !std::isfinite(x); });
+      reference.negative += any([](float x) { return x < 0; });
+      reference.over_one += any([](float x) { return x > 1; });
+      for (const float x : v) reference.maximum = x > reference.maximum ? x : reference.maximum;
     }
-    const bool same = found.nonfinite == truth.nonfinite && found.negative == truth.negative &&
-                      found.over_one == truth.over_one && found.maximum == truth.maximum;
+    const bool same = found.nonfinite == reference.nonfinite && found.negative == reference.negative &&
+                      found.over_one == reference.over_one && found.maximum == reference.maximum;
     return same ? 0.0 : kBeyond;
   };
   to.push_back(std::move(op));

@@ -31,8 +31,8 @@ Result<CurveRows> curve_rows() {
     SPECTILE_ASSIGN(const auto curve, named_spectrum(names[c]));
     for (std::int32_t i = 0; i <= kIntervals; ++i) {
       const double nm = kFirstNm + i;
-      const auto value = static_cast<float>((curve)(nm));
-      const float next = i < kIntervals ? static_cast<float>((curve)(nm + 1)) : value;
+      const auto value = static_cast<float>(curve(nm));
+      const float next = i < kIntervals ? static_cast<float>(curve(nm + 1)) : value;
       (*rows)[static_cast<std::size_t>(i) * 8 + c] = value;
       (*rows)[static_cast<std::size_t>(i) * 8 + 4 + c] = next - value;
     }
@@ -76,7 +76,7 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
   // sums a wavelength, the factor, limits.
   op.operations = kWavelengths * 14 + 4 * (4 * kWavelengths + 5);
   op.divisions = kWavelengths;
-  op.binds = "a row of the curves for each sample and wavelength: two loads and a shuffle of their own";
+  op.bottleneck = "a row of the curves for each sample and wavelength: two loads and a shuffle of their own";
   op.bound = kWavelengths + 8;
   op.fill = [](Random& random, float* v) {
     for (std::size_t k = 0; k < kWavelengths; ++k) {
@@ -104,9 +104,9 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
     k.film_weigh_wavelengths(a.out(), false, reasons_for(a.n()), curves, limits, radiance, lambda, density,
                              nullptr, 1.0F / kWavelengths, kWavelengths, a.n());
   };
-  const auto judge = judged_by(
+  const auto evaluate_errors = error_against(
       3,
-      [rows](const double* v, double* truth, double* scale) {
+      [rows](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < kWavelengths; ++i) {
           const double density = v[2 * kWavelengths + i];
           const double t = v[kWavelengths + i] - kFirstNm;
@@ -117,24 +117,25 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
           for (std::size_t c = 0; c < 3; ++c) {
             const auto value = static_cast<double>((*rows)[8 * row + c]);
             const auto step = static_cast<double>((*rows)[8 * row + 4 + c]);
-            truth[c] += (value + part * step) * ratio / kWavelengths;
+            reference[c] += (value + part * step) * ratio / kWavelengths;
             scale[c] += (std::abs(value) + std::abs(part * step)) * std::abs(ratio) / kWavelengths;
           }
         }
       },
       2 * kWavelengths, false, op.bound);
-  op.error = [judge](const double* in, const double* out, double tiny) {
-    // What a film refuses is not specified: numbers that are not finite, negative densities, quotients beyond
-    // float's range.
+  op.error = [evaluate_errors](const double* in, const double* out, double tiny) {
+    // Results for samples that a film refuses are not specified: numbers that are not finite, negative
+    // densities, ratios beyond float's range.
     for (std::size_t i = 0; i < kWavelengths; ++i) {
       const double density = in[2 * kWavelengths + i];
       const bool good = std::isfinite(in[i]) && std::isfinite(in[kWavelengths + i]) && std::isfinite(density);
       if (!good || density < 0) return kOutOfDomain;
       if (density != 0 && std::abs(in[i] / density) > 0x1p120) return kOutOfDomain;
-      // A density flushed to 0, or a quotient below the least normal number, is not what the bound is about.
+      // A density flushed to 0, or a ratio below the smallest normal number, is outside of the bound's
+      // domain.
       if (density != 0 && (density < 0x1p-126 || std::abs(in[i] / density) < 0x1p-100)) return kOutOfDomain;
     }
-    return judge(in, out, tiny);
+    return evaluate_errors(in, out, tiny);
   };
   to.push_back(std::move(op));
 }
@@ -146,7 +147,7 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
   op.item = "spectrum";
   op.operations = 4 * (2 * count + count / 8) + 8;
   op.bound = count / 8 + 12;
-  op.binds = "a sample of each band comes alone, to be spread over a quad";
+  op.bottleneck = "a sample of each band comes alone, to be spread over a quad";
   op.fill = uniform_values(bands, 0.01F, 1.0F);
   auto weights =
       std::make_shared<std::vector<float>>(projector.float_weights(), projector.float_weights() + 4 * bands);
@@ -161,19 +162,19 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
     k.film_weigh_bands(a.out(), false, reasons_for(a.n()), weights->data(), limits, rows.data(), nullptr,
                        bands, a.n());
   };
-  const auto judge = judged_by(
+  const auto evaluate_errors = error_against(
       3,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < 3 * bands; ++i) {
           const double term = (*exact)[i] * v[i / 3];
-          truth[i % 3] += term;
+          reference[i % 3] += term;
           scale[i % 3] += std::abs(term);
         }
       },
       count, false, op.bound);
   op.error = [=](const double* in, const double* out, double tiny) {
     if (!std::all_of(in, in + bands, [](double v) { return std::isfinite(v); })) return kOutOfDomain;
-    return judge(in, out, tiny);
+    return evaluate_errors(in, out, tiny);
   };
   to.push_back(std::move(op));
 }

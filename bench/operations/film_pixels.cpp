@@ -22,8 +22,8 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
   // In double: four sums of two limbs, carried over (4), widened, scaled and added (5), three rounded.
   op.operations = 2 * (4 * 9 + 3);
   op.divisions = 2 * 3;
-  op.binds =
-      "one pixel after another, in scalar doubles: eight limbs carried over and widened, three quotients";
+  op.bottleneck =
+      "one pixel after another, in scalar doubles: eight limbs carried over and widened, three divisions";
   op.fill = [](Random& random, float* v) {
     // Sixteen samples: the weight's coarse steps are 2^-15, the colours' are 2.
     for (std::size_t c = 0; c < 3; ++c) v[c] = std::floor(uniform(random, 1.0F, 16.0F));
@@ -40,15 +40,15 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
       }
     }
   };
-  op.error = judged_by(
+  op.error = error_against(
       3,
-      [film](const double* limbs, double* truth, double* scale) {
+      [film](const double* limbs, double* reference, double* scale) {
         const FilmOptions& o = film->options();
         const auto step = [&](bool weight) {
           return std::ldexp(1.0, (weight ? o.weight_range : o.range) - kFilmCoarseBits);
         };
         const auto sum = [&](std::size_t c, double coarse_step) {
-          // What a rest holds beyond half a coarse step belongs to the coarse limb.
+          // The part of a rest beyond half a coarse step belongs to the coarse limb.
           const double over = std::nearbyint(std::ldexp(limbs[4 + c], -kFilmLimbBits));
           const long double rest = static_cast<long double>(limbs[4 + c]) -
                                    std::ldexp(static_cast<long double>(over), kFilmLimbBits);
@@ -57,8 +57,8 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
         };
         const long double weight = sum(3, step(true));
         for (std::size_t c = 0; c < 3; ++c) {
-          truth[c] = weight == 0 ? 0.0 : static_cast<double>(sum(c, step(false)) / weight);
-          scale[c] = std::abs(truth[c]);
+          reference[c] = weight == 0 ? 0.0 : static_cast<double>(sum(c, step(false)) / weight);
+          scale[c] = std::abs(reference[c]);
         }
       },
       1, true, op.bound);

@@ -25,11 +25,11 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
   op.out = {1, 1, Element::kInt};
   op.cache_only = true;
   op.unit = "exact";
-  // Inside (7), to whole numbers (6), tile (4), pixel (4), address (2), sums of what may be no number (4),
+  // Inside (7), to integers (6), tile (4), pixel (4), address (2), sums of what may be no number (4),
   // weight and reasons (5), extremes (2).
   op.operations = 34;
-  op.binds =
-      "comparisons into masks and conversions to whole numbers, of which fewer start at once than of "
+  op.bottleneck =
+      "comparisons into masks and conversions to integers, of which fewer start at once than of "
       "products";
   op.fill = [](Random& random, float* v) {
     v[0] = uniform(random, 0.0F, static_cast<float>(kFilmSide));
@@ -47,23 +47,23 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
   op.error = [](const double* v, const double* out, double /*tiny*/) {
     const auto any = [&](auto is) { return is(v[0]) || is(v[1]) || is(v[2]); };
     const auto inside = [](double x) { return x >= 0 && x < kFilmSide; };
-    double truth = 0;
+    double reference = 0;
     if (any([](double x) { return std::isnan(x); })) {
-      truth = -kernels::kFilmNan;
+      reference = -kernels::kFilmNan;
     } else if (any([](double x) { return std::isinf(x); })) {
-      truth = -kernels::kFilmInfinite;
+      reference = -kernels::kFilmInfinite;
     } else if (v[2] < 0) {
-      truth = -kernels::kFilmNegative;
+      reference = -kernels::kFilmNegative;
     } else if (!inside(v[0]) || !inside(v[1])) {
-      truth = -kernels::kFilmOutside;
+      reference = -kernels::kFilmOutside;
     } else {
       const double x = std::floor(v[0]);
       const double y = std::floor(v[1]);
       const double tile = std::floor(y / kFilmTile) * (kFilmSide / static_cast<double>(kFilmTile)) +
                           std::floor(x / kFilmTile);
-      truth = tile * kFilmTilePixels + std::fmod(y, kFilmTile) * kFilmTile + std::fmod(x, kFilmTile);
+      reference = tile * kFilmTilePixels + std::fmod(y, kFilmTile) * kFilmTile + std::fmod(x, kFilmTile);
     }
-    return out[0] == truth ? 0.0 : kBeyond;
+    return out[0] == reference ? 0.0 : kBeyond;
   };
   to.push_back(std::move(op));
 }
@@ -80,7 +80,7 @@ void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
   op.bound = 1;
   // A sample's magnitude (1), the largest (1), times the weight (1), its share of turning four by four (2).
   op.operations = 5 * static_cast<double>(bands);
-  op.binds = "quads of four where vectors are wider: turning four rows into columns";
+  op.bottleneck = "quads of four where vectors are wider: turning four rows into columns";
   op.fill = uniform_values(bands + 1, 0.01F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     thread_local std::vector<const float*> rows;
@@ -92,12 +92,12 @@ void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
                                         std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
     k.film_band_quads(a.out(), stride, reasons.data(), limits, rows.data(), a.in(bands), bands, a.n());
   };
-  op.error = judged_by(
+  op.error = error_against(
       stride,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         for (std::size_t b = 0; b < bands; ++b) {
-          truth[b] = v[b] * v[bands];
-          scale[b] = std::abs(truth[b]);
+          reference[b] = v[b] * v[bands];
+          scale[b] = std::abs(reference[b]);
         }
       },
       1, true, op.bound);
@@ -119,7 +119,7 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
   // (3), what is beyond (6).
   op.operations = kFilmWavelengths * 24;
   op.divisions = kFilmWavelengths;
-  op.binds =
+  op.bottleneck =
       "gathers: of the bucket's edge, of the edge that is compared, of the band; and pairs stored one by one";
   op.fill = [](Random& random, float* v) {
     for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
@@ -170,7 +170,7 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
       const bool falls = density != 0 && lambda >= 400 && lambda < 700;
       if (out[k] != (falls ? std::floor((lambda - 400) / 5) : -1.0)) return kBeyond;
       worst = std::max(worst, 0.0);
-      // What is refused is not specified.
+      // Results for refused samples are not specified.
       if (!falls || !std::isfinite(radiance) || !std::isfinite(density) || density < 0) continue;
       const double weight = kReference / density;
       // Beyond float's range, or so small that a rounding is not one in 2^24.

@@ -21,7 +21,7 @@ constexpr double kBeyond = std::numeric_limits<double>::infinity();
 constexpr std::size_t kHitBands = 8;
 
 /// A film whose grids and tables the kernels are given; it is never fed.
-Result<SharedFilm> film_of(bool spectral) {
+Result<SharedFilm> make_film(bool spectral) {
   FilmOptions o;
   o.width = o.height = kFilmSide;
   o.spectral = spectral;
@@ -50,7 +50,7 @@ const std::int32_t* whole_tile() {
   return addresses.data();
 }
 
-/// What a filter may give, exact in few bits.
+/// Filter weights, exact in few bits.
 const float* filter_weights() {
   static const auto weights = [] {
     std::array<float, kFilmTilePixels> out{};
@@ -82,7 +82,7 @@ void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
   }
 }
 
-/// Within what a film lets through to its sums.
+/// Clamped to the range of a film's sums.
 float held(float v, double most) {
   const auto limit = static_cast<float>(most);
   return std::isnan(v) ? 0.0F : std::clamp(v, -limit, limit);
@@ -143,7 +143,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   op.name = "film: add colours with filter weights";
   op.item = "pixel reached";
   op.operations += 4;
-  op.binds = "one entry after another, as two may reach the same pixel";
+  op.bottleneck = "one entry after another, as two may reach the same pixel";
   op.unit = "u and half a step of the grid";
   op.bound = 1;
   op.run = [film](const KernelTable& k, const Arrays& a) {
@@ -159,11 +159,11 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double step = coarse_step(*film, c == 3);
-      const double truth = v[c] * factor;
+      const double reference = v[c] * factor;
       const double half = 0.5 * std::ldexp(step, -kFilmLimbBits) + tiny;
       const double off =
-          std::abs(in_rest_steps(truth, limbs[c], limbs[4 + c], step)) * std::ldexp(step, -kFilmLimbBits);
-      if (off > half) worst = std::max(worst, (off - half) / (0x1p-24 * std::abs(truth)));
+          std::abs(in_rest_steps(reference, limbs[c], limbs[4 + c], step)) * std::ldexp(step, -kFilmLimbBits);
+      if (off > half) worst = std::max(worst, (off - half) / (0x1p-24 * std::abs(reference)));
     }
     return worst;
   };
@@ -178,11 +178,11 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
   op.operations = kFilmWavelengths * 2 * (1 + kLimbPair);
   op.unit = "of a step of the grid";
   op.bound = 0.5;
-  op.binds = "two numbers at a time, as each wavelength goes to a band of its own";
+  op.bottleneck = "two numbers at a time, as each wavelength goes to a band of its own";
   op.fill = [](Random& random, float* v) {
     for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
   };
-  const auto band_of = [](std::size_t lane, std::size_t k) { return (lane + 2 * k) % kHitBands; };
+  const auto hit_band = [](std::size_t lane, std::size_t k) { return (lane + 2 * k) % kHitBands; };
   op.run = [=](const KernelTable& k, const Arrays& a) {
     // Rows of pairs are as far apart as the planes, and so are those of bands.
     const std::size_t apart = a.source_plane / (2 * sizeof(float));
@@ -190,7 +190,7 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
     if (bands.size() != apart * kFilmWavelengths) {
       bands.resize(apart * kFilmWavelengths);
       for (std::size_t i = 0; i < bands.size(); ++i) {
-        bands[i] = static_cast<std::int32_t>(band_of(i % apart, i / apart));
+        bands[i] = static_cast<std::int32_t>(hit_band(i % apart, i / apart));
       }
     }
     over_tiles(a, 4 * kHitBands,
@@ -205,7 +205,7 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
     double worst = 0;
     for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
-      const double* const of_band = limbs + 4 * band_of(lane, k);
+      const double* const of_band = limbs + 4 * hit_band(lane, k);
       for (std::size_t c = 0; c < 2; ++c) {
         const double step = coarse_step(*film, c == 1);
         const double off = std::abs(in_rest_steps(v[2 * k + c], of_band[c], of_band[2 + c], step));
@@ -223,7 +223,7 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
   op.divisions = 2;
   op.unit = "2^-53";
   op.bound = 2.01;
-  op.binds = "one sample after another: seven limbs in scalar doubles, each of what the one before left";
+  op.bottleneck = "one sample after another: seven limbs in scalar doubles, each of what the one before left";
   op.run = [film](const KernelTable& k, const Arrays& a) {
     over_tiles(
         a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
@@ -251,11 +251,11 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
     };
     constexpr std::size_t kSquares[] = {0, 1, 2, 3};
     constexpr std::size_t kWeights[] = {4, 5, 7};
-    const auto error = [&](long double found, long double truth, int exponent, int limbs_in_it) {
+    const auto error = [&](long double found, long double reference, int exponent, int limbs_in_it) {
       const long double half =
           std::ldexp(0.5L, exponent - kFilmCoarseBits - (limbs_in_it - 1) * kFilmLimbBits);
-      const long double off = std::abs(found - truth) - half - tiny;
-      return off > 0 ? static_cast<double>(off / (0x1p-53L * truth)) : 0.0;
+      const long double off = std::abs(found - reference) - half - tiny;
+      return off > 0 ? static_cast<double>(off / (0x1p-53L * reference)) : 0.0;
     };
     if (limbs[6] != 1) return kBeyond;
     return std::max(error(sum(limbs, 4, kSquares, top), square, top, 4),
@@ -270,7 +270,7 @@ void add_counts(std::vector<Operation>& to) {
   op.fill = uniform_values(1, 0.0F, 1.0F);
   op.operations = 1;
   op.unit = "exact";
-  op.binds = "one address after another, as two may be of the same pixel";
+  op.bottleneck = "one address after another, as two may be of the same pixel";
   op.run = [](const KernelTable& k, const Arrays& a) {
     over_tiles(a, 1, [&](std::size_t, const FilmEntries& entries, std::int64_t* const* tiles) {
       k.film_count(tiles, 0, entries);
@@ -283,8 +283,8 @@ void add_counts(std::vector<Operation>& to) {
 }  // namespace
 
 Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands) {
-  SPECTILE_ASSIGN(const auto film, film_of(false));
-  SPECTILE_ASSIGN(const auto spectral, film_of(true));
+  SPECTILE_ASSIGN(const auto film, make_film(false));
+  SPECTILE_ASSIGN(const auto spectral, make_film(true));
   add_film_samples(to, film, spectral, bands);
   add_colors(to, film);
   add_hit_sums(to, spectral);

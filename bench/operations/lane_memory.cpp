@@ -17,7 +17,7 @@ constexpr std::size_t kPage = 4096;
 /// push each other out of a cache, where addresses end alike.
 constexpr std::size_t kApart = std::size_t{17} * 64;
 
-std::size_t plane_bytes_of(std::size_t bytes) {
+std::size_t padded_plane_bytes(std::size_t bytes) {
   return (bytes + kPage - 1) / kPage * kPage + kApart;
 }
 
@@ -28,7 +28,7 @@ std::size_t LaneMemory::block_bytes(const Operation& operation) {
          operation.out.planes * operation.out.block_bytes();
 }
 
-std::size_t LaneMemory::least_bytes(const Operation& operation, std::size_t blocks) {
+std::size_t LaneMemory::min_bytes(const Operation& operation, std::size_t blocks) {
   return blocks * block_bytes(operation) + (kPage + kApart) * (operation.in.planes + operation.out.planes);
 }
 
@@ -39,8 +39,8 @@ LaneMemory::LaneMemory(const Operation& operation, float* memory, std::size_t by
       source_(reinterpret_cast<std::byte*>(memory)) {
   const std::size_t rounding = (kPage + kApart) * (in_.planes + out_.planes);
   blocks_ = std::max<std::size_t>(1, (bytes - std::min(bytes, rounding)) / block_bytes(operation));
-  source_plane_ = plane_bytes_of(blocks_ * in_.block_bytes());
-  target_plane_ = plane_bytes_of(blocks_ * out_.block_bytes());
+  source_plane_ = padded_plane_bytes(blocks_ * in_.block_bytes());
+  target_plane_ = padded_plane_bytes(blocks_ * out_.block_bytes());
   target_ = source_ + in_.planes * source_plane_;
 }
 
@@ -67,8 +67,9 @@ void LaneMemory::write(std::size_t lane, const float* values) {
       const std::size_t i = index(in_, lane, row);
       const float v = values[plane * in_.rows + row];
       if (in_.element == Element::kLimb) {
-        constexpr float kMost = 0x1p53F;
-        const auto whole = static_cast<std::int64_t>(std::isnan(v) ? 0.0F : std::clamp(v, -kMost, kMost));
+        constexpr float kMaxMagnitude = 0x1p53F;
+        const auto whole =
+            static_cast<std::int64_t>(std::isnan(v) ? 0.0F : std::clamp(v, -kMaxMagnitude, kMaxMagnitude));
         std::memcpy(block + i * sizeof(whole), &whole, sizeof(whole));
       } else if (in_.element == Element::kHalf) {
         const std::uint16_t half = reference::half_from_float(v);
@@ -134,13 +135,13 @@ void LaneMemory::read_out(std::size_t lane, double* values) const {
   read(out_, target_, target_plane_, lane, values);
 }
 
-void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
-           Judged& out) {
+void evaluate_errors(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
+                     Evaluation& out) {
   constexpr double kSmallestNormal = 0x1p-126;
   constexpr double kDenormalStep = 0x1p-149;
   lanes = std::min(lanes, memory.lanes());
-  if (operation.error_of_run) {
-    const double error = operation.error_of_run(memory.arrays(0, lanes / kLanes, false), flushed);
+  if (operation.run_error) {
+    const double error = operation.run_error(memory.arrays(0, lanes / kLanes, false), flushed);
     if (error == kOutOfDomain) return;
     out.cases += lanes;
     if (!(error <= operation.bound)) out.beyond += lanes;

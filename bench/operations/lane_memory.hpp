@@ -14,13 +14,13 @@ class LaneMemory {
   /// Bytes that one block takes, source and target.
   static std::size_t block_bytes(const Operation& operation);
   /// And with the distance that planes are kept apart.
-  static std::size_t least_bytes(const Operation& operation, std::size_t blocks = 1);
+  static std::size_t min_bytes(const Operation& operation, std::size_t blocks = 1);
 
   std::size_t blocks() const noexcept { return blocks_; }
   std::size_t lanes() const noexcept { return blocks_ * kernels::kLanes; }
   Arrays arrays(std::size_t first, std::size_t count, bool non_temporal) const;
 
-  /// Values of a lane, [planes][rows]; halves are rounded, whole numbers limited to what double holds.
+  /// Values of a lane, [planes][rows]; halves are rounded, integers limited to what double holds.
   void write(std::size_t lane, const float* values);
   /// Copies the first `count` blocks' inputs over all the others.
   void repeat(std::size_t count);
@@ -39,15 +39,15 @@ class LaneMemory {
   std::size_t source_plane_ = 0, target_plane_ = 0;
 };
 
-/// The largest error over the first `lanes` lanes, and how many could be judged.
-struct Judged {
+/// The largest error over the first `lanes` lanes, and how many could be evaluated.
+struct Evaluation {
   double worst = 0;
   std::uint64_t cases = 0;
   std::uint64_t beyond = 0;
   std::vector<float> worst_input;
 };
-/// `flushed`: the processor took and gave 0 for numbers below the least normal one.
-void judge(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
-           Judged& out);
+/// `flushed`: the processor took and gave 0 for numbers below the smallest normal one.
+void evaluate_errors(const Operation& operation, const LaneMemory& memory, std::size_t lanes, bool flushed,
+                     Evaluation& out);
 
 }  // namespace spectile::measure

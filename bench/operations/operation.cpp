@@ -1,4 +1,4 @@
-// What operations share: judging errors, typical values.
+// Common to operations: evaluating errors, typical values.
 #include "bench/operations/operation.hpp"
 
 #include <algorithm>
@@ -19,37 +19,38 @@ constexpr double kOverflow = 0x1.ffffffp127;
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 /// Error of one value in units of u of the scale.
-double error_of(double value, double truth, double scale, double allowance, bool single, double bound) {
+double value_error(double value, double reference, double scale, double allowance, bool single,
+                   double bound) {
   // Where an intermediate result may overflow, an infinity may become no number, and no number stays none.
-  if (!single && !std::isfinite(truth)) {
-    return std::isfinite(value) || (std::isnan(truth) && !std::isnan(value)) ? kBeyond : 0;
+  if (!single && !std::isfinite(reference)) {
+    return std::isfinite(value) || (std::isnan(reference) && !std::isnan(value)) ? kBeyond : 0;
   }
-  if (std::isnan(truth)) return std::isnan(value) ? 0 : kBeyond;
-  if (std::isinf(truth)) return value == truth ? 0 : kBeyond;
-  if (single && std::abs(truth) >= kOverflow) {
-    return std::isinf(value) && std::signbit(value) == std::signbit(truth) ? 0 : kBeyond;
+  if (std::isnan(reference)) return std::isnan(value) ? 0 : kBeyond;
+  if (std::isinf(reference)) return value == reference ? 0 : kBeyond;
+  if (single && std::abs(reference) >= kOverflow) {
+    return std::isinf(value) && std::signbit(value) == std::signbit(reference) ? 0 : kBeyond;
   }
   if (!single && scale * (1 + bound * kU) > kLargest) return kOutOfDomain;
   if (!std::isfinite(value)) return kBeyond;
-  const double off = std::abs(value - truth);
+  const double off = std::abs(value - reference);
   if (off <= allowance) return 0;
   return scale > 0 ? (off - allowance) / (kU * scale) : kBeyond;
 }
 
 }  // namespace
 
-std::function<double(const double*, const double*, double)> judged_by(std::size_t outputs, Oracle oracle,
-                                                                      double roundings, bool single,
-                                                                      double bound) {
+std::function<double(const double*, const double*, double)> error_against(std::size_t outputs, Oracle oracle,
+                                                                          double roundings, bool single,
+                                                                          double bound) {
   return [=, oracle = std::move(oracle)](const double* in, const double* out, double tiny) {
-    thread_local std::vector<double> truth;
+    thread_local std::vector<double> reference;
     thread_local std::vector<double> scale;
-    truth.assign(outputs, 0.0);
+    reference.assign(outputs, 0.0);
     scale.assign(outputs, 0.0);
-    oracle(in, truth.data(), scale.data());
+    oracle(in, reference.data(), scale.data());
     double worst = kOutOfDomain;
     for (std::size_t i = 0; i < outputs; ++i) {
-      worst = std::max(worst, error_of(out[i], truth[i], scale[i], roundings * tiny, single, bound));
+      worst = std::max(worst, value_error(out[i], reference[i], scale[i], roundings * tiny, single, bound));
     }
     return worst;
   };

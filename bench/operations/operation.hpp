@@ -1,4 +1,5 @@
-// Operation: one thing that the kernels do to lanes, with what it costs at least and how its error is judged.
+// Operation: one thing that the kernels do to lanes, with what it costs at least and how its error is
+// evaluated.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +23,12 @@ enum class Element {
   kFloat,
   kHalf,
   kMask,  ///< a bit a lane
-  kInt,   ///< whole numbers of 32 bits
+  kInt,   ///< integers of 32 bits
   kQuad,  ///< floats, a lane's rows side by side: [kLanes][rows]
-  kLimb,  ///< whole numbers of 64 bits, a lane's rows side by side
+  kLimb,  ///< integers of 64 bits, a lane's rows side by side
 };
 
-/// What a lane has in memory: planes of blocks [rows][kLanes].
+/// A lane's layout in memory: planes of blocks [rows][kLanes].
 struct Shape {
   std::size_t planes = 1;
   std::size_t rows = 1;
@@ -46,7 +47,7 @@ struct Shape {
   }
 };
 
-/// Where a run of blocks lies.
+/// A run of blocks in memory.
 struct Arrays {
   const std::byte* source = nullptr;
   std::byte* target = nullptr;
@@ -66,7 +67,7 @@ struct Arrays {
   }
 };
 
-/// An error that cannot be judged: the case lies outside of what the operation promises.
+/// No error: the case lies outside of the domain of the operation's bound.
 inline constexpr double kOutOfDomain = -1;
 
 struct Operation {
@@ -76,31 +77,31 @@ struct Operation {
   /// A lane's arithmetic: vector instructions that are neither load nor store, one on doubles counting twice.
   double operations = 0;
   double divisions = 0;
-  bool can_stream = false;  ///< the kernel stores round the caches where it is told
+  bool can_stream = false;  ///< the kernel stores with non-temporal stores where it is told
   bool bitwise = false;     ///< looks at bits: denormals are not 0 in any mode of the processor
   bool cache_only = false;  ///< works on a line of an image, never on more
   bool adds = false;        ///< to what is there: the target is read too
   /// A lane's bytes of the target that are touched; below 0: all.
   double touched_bytes = -1;
   /// So many times fewer lanes are tried: for what takes microseconds a lane.
-  std::size_t dear = 1;
-  std::string binds;       ///< what binds it where its limit does not, in words
+  std::size_t expense = 1;
+  std::string bottleneck;  ///< bottleneck beside the limit, in words
   std::string unit = "u";  ///< of error and bound
   double bound = 0;
   std::function<void(const kernels::KernelTable&, const Arrays&)> run;
-  /// Makes a target ready to be added to; empty where none is. Called before what is judged.
+  /// Makes a target ready to be added to; empty where none is. Called before results are evaluated.
   std::function<void(const Arrays&)> clear;
   /// Typical values of one lane, [planes][rows].
   std::function<void(Random&, float* values)> fill;
   /// Makes of any numbers what the operation may be given; empty where that is all.
   std::function<void(float* values)> admit;
   /// Error of a lane, [planes][rows] each: at most `bound`, or kOutOfDomain. `tiny`: what a result or an
-  /// operand may be off by where it is below the least normal number.
+  /// operand may be off by where it is below the smallest normal number.
   std::function<double(const double* in, const double* out, double tiny)> error;
   /// In its place, where it matters which lane it is.
   std::function<double(std::size_t lane, const double* in, const double* out, double tiny)> error_at;
   /// In its place, for what tells of all lanes together: the largest error of a run.
-  std::function<double(const Arrays&, bool flushed)> error_of_run;
+  std::function<double(const Arrays&, bool flushed)> run_error;
   /// Reads a lane's results out of a block of the target, where they do not lie as the shape says.
   std::function<void(const std::byte* block, std::size_t lane, double* values)> read_block;
   Cost cost() const {
@@ -109,23 +110,32 @@ struct Operation {
   }
 };
 
-/// The truth of a lane: values and, for each, the magnitude that the bound is a multiple of u of.
-using Oracle = std::function<void(const double* in, double* truth, double* scale)>;
+/// Reference of a lane: values and, for each, the magnitude that the bound is a multiple of u of.
+using Oracle = std::function<void(const double* in, double* reference, double* scale)>;
 
-/// Judges against the oracle. Errors in units of u = 2^-24 of `scale`; `roundings`: of results that may be
-/// below the least normal number. Where a sum of magnitudes leaves float's range nothing is promised but for
+/// Evaluates against the oracle. Errors in units of u = 2^-24 of `scale`; `roundings`: of results that may be
+/// below the smallest normal number. Where a sum of magnitudes leaves float's range there is no bound but for
 /// operations that are `single`: rounded once, whose overflow is the infinity that rounding gives.
-std::function<double(const double*, const double*, double)> judged_by(std::size_t outputs, Oracle oracle,
-                                                                      double roundings, bool single,
-                                                                      double bound);
+std::function<double(const double*, const double*, double)> error_against(std::size_t outputs, Oracle oracle,
+                                                                          double roundings, bool single,
+                                                                          double bound);
+
+// Constants of some operations.
+inline constexpr float kPowExponent = 2.4F;  ///< of sRGB's encoding
+inline constexpr float kSigmoidAtWavelengths[3] = {-3.0F, 1.0F, 0.5F};
+inline constexpr double kPlanckTemperature = 6504;  ///< K
+/// h c / k, exact since the redefinition of 2019. Source: CODATA 2018.
+inline constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;
+/// Wavelengths as instruments give them: some nanometres apart, never evenly. Units: nm.
+std::vector<float> irregular_knots();
 
 /// Uniform in [low, high).
 float uniform(Random& random, float low, float high);
 
-/// Whether a name contains one of these; every one does where there are none.
+/// True if a name contains one of these, or there are none.
 bool is_chosen(const std::string& name, const std::vector<std::string>& only);
 
-/// Whether three numbers are.
+/// True if three numbers are finite.
 bool finite3(const double* v);
 
 /// Half a step of half at a value.

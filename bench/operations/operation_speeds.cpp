@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/baseline/lane_baselines.hpp"
 #include "bench/operations/lane_memory.hpp"
 #include "src/base/errors.hpp"
 
 namespace spectile::measure {
 namespace {
 
-/// Lanes that are filled with numbers of their own and whose results are judged.
-constexpr std::size_t kJudgedBlocks = 32;
+/// Lanes that are filled with numbers of their own and whose results are evaluated.
+constexpr std::size_t kEvaluatedBlocks = 32;
 
 /// An operation with its memory.
 struct Entry {
@@ -20,6 +21,7 @@ struct Entry {
   std::unique_ptr<LaneMemory> memory;
   Timed timed;
   double items = 0;  ///< a run
+  LaneBaseline baseline;
 };
 
 void prepare(Entry& entry, float* memory, const SpeedPlace& place) {
@@ -28,10 +30,10 @@ void prepare(Entry& entry, float* memory, const SpeedPlace& place) {
                                 ? place.bytes * static_cast<std::size_t>(place.threads)
                                 : place.bytes;
   entry.memory =
-      std::make_unique<LaneMemory>(op, memory, std::max(bytes / op.dear, LaneMemory::least_bytes(op)));
+      std::make_unique<LaneMemory>(op, memory, std::max(bytes / op.expense, LaneMemory::min_bytes(op)));
   Random random(place.seed);
   std::vector<float> values(op.in.values());
-  const std::size_t filled = std::min(entry.memory->blocks(), kJudgedBlocks);
+  const std::size_t filled = std::min(entry.memory->blocks(), kEvaluatedBlocks);
   for (std::size_t lane = 0; lane < filled * kernels::kLanes; ++lane) {
     op.fill(random, values.data());
     entry.memory->write(lane, values.data());
@@ -49,7 +51,7 @@ void prepare(Entry& entry, float* memory, const SpeedPlace& place) {
   };
 }
 
-OperationSpeed speed_of(const Entry& entry, const LimitLoops& limits, const SpeedPlace& place) {
+OperationSpeed measured_speed(const Entry& entry, const LimitLoops& limits, const SpeedPlace& place) {
   const Operation& op = *entry.operation;
   const Cost cost = op.cost();
   OperationSpeed out;
@@ -64,18 +66,39 @@ OperationSpeed speed_of(const Entry& entry, const LimitLoops& limits, const Spee
   out.spread = entry.timed.spread;
   const bool non_temporal = place.level == MemoryLevel::kMemory && op.can_stream;
   out.fraction = limits.fraction(entry.timed, entry.items, cost, non_temporal, &out.limit);
-  // Once more for the judge: what was timed has been added up many times over.
-  const Arrays again = entry.memory->arrays(0, std::min(entry.memory->blocks(), kJudgedBlocks), non_temporal);
+  // Once more for the evaluation: what was timed has been added up many times over.
+  const Arrays again =
+      entry.memory->arrays(0, std::min(entry.memory->blocks(), kEvaluatedBlocks), non_temporal);
   if (op.clear) op.clear(again);
   op.run(*place.table, again);
-  Judged judged;
-  judge(op, *entry.memory, kJudgedBlocks * kernels::kLanes, false, judged);
-  out.error = judged.worst;
+  Evaluation evaluation;
+  evaluate_errors(op, *entry.memory, kEvaluatedBlocks * kernels::kLanes, false, evaluation);
+  out.error = evaluation.worst;
   out.bound = op.bound;
   out.error_unit = op.unit;
-  // What keeps it from the limit is said where it does.
+  // The bottleneck is reported where the limit is not reached.
   const double asked = place.level == MemoryLevel::kCache ? 0.7 : 0.8;
-  if (out.fraction < asked) out.note = op.binds;
+  if (out.fraction < asked) out.note = op.bottleneck;
+  return out;
+}
+
+BaselineSpeed beside_baseline(const Entry& entry, const OperationSpeed& speed) {
+  const auto nanoseconds = [&](const Timed& t) { return 1e9 * t.seconds / entry.items; };
+  BaselineSpeed out;
+  out.group = speed.group;
+  out.name = speed.name;
+  out.item = speed.item;
+  out.nanoseconds = nanoseconds(entry.timed);
+  out.baseline_nanoseconds = nanoseconds(entry.baseline.plain);
+  out.fused_nanoseconds = nanoseconds(entry.baseline.fused);
+  out.ratio = median_ratio(entry.baseline.plain, entry.timed);
+  out.fused_ratio = median_ratio(entry.baseline.fused, entry.timed);
+  out.spread = speed.spread;
+  out.limit = speed.limit;
+  out.fraction = speed.fraction;
+  out.error = speed.error;
+  out.baseline_error = entry.baseline.error(kEvaluatedBlocks * kernels::kLanes);
+  out.error_unit = speed.error_unit;
   return out;
 }
 
@@ -87,16 +110,24 @@ Result<SpeedsFound> in_cache(const std::vector<Operation>& operations, const Spe
   std::vector<Timed*> work = limits.timed();
   for (std::size_t i = 0; i < operations.size(); ++i) {
     entries[i].operation = &operations[i];
-    SPECTILE_ASSIGN(auto own, FloatBuffer::create(std::max(bytes, LaneMemory::least_bytes(operations[i])) /
-                                                  sizeof(float)));
+    SPECTILE_ASSIGN(
+        auto own, FloatBuffer::create(std::max(bytes, LaneMemory::min_bytes(operations[i])) / sizeof(float)));
     entries[i].own = std::move(own);
     prepare(entries[i], entries[i].own.data(), place);
     work.push_back(&entries[i].timed);
+    if (!place.baseline) continue;
+    SPECTILE_ASSIGN(entries[i].baseline, LaneBaseline::create(operations[i], place.bands, *entries[i].memory,
+                                                              passes_at(place.level)));
+    if (entries[i].baseline.plain.run) work.push_back(&entries[i].baseline.plain);
+    if (entries[i].baseline.fused.run) work.push_back(&entries[i].baseline.fused);
   }
-  time_in_turn(work, place.patience);
+  time_in_turn(work, place.timing);
   SpeedsFound out;
   out.limit = limits.limit();
-  for (const Entry& entry : entries) out.operations.push_back(speed_of(entry, limits, place));
+  for (const Entry& entry : entries) {
+    out.operations.push_back(measured_speed(entry, limits, place));
+    if (entry.baseline.exists()) out.baseline.push_back(beside_baseline(entry, out.operations.back()));
+  }
   return out;
 }
 
@@ -105,7 +136,7 @@ Result<SpeedsFound> in_memory(const std::vector<Operation>& operations, const Sp
   SPECTILE_ASSIGN(auto theirs, FloatBuffer::create(place.bytes / sizeof(float)));
   LimitLoops limits(*place.table, mine.data(), place.bytes / sizeof(float), place.threads, place.level);
   const std::vector<Timed*> loops = limits.timed();
-  time_in_turn(loops, place.patience);
+  time_in_turn(loops, place.timing);
   SpeedsFound out;
   out.limit = limits.limit();
   for (const Operation& op : operations) {
@@ -120,8 +151,8 @@ Result<SpeedsFound> in_memory(const std::vector<Operation>& operations, const Sp
     // With the limits of the same seconds beside it.
     std::vector<Timed*> work = loops;
     work.push_back(&entry.timed);
-    time_in_turn(work, place.patience);
-    out.operations.push_back(speed_of(entry, limits, place));
+    time_in_turn(work, place.timing);
+    out.operations.push_back(measured_speed(entry, limits, place));
   }
   return out;
 }

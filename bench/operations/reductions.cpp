@@ -1,4 +1,4 @@
-// What a lane holds over its bands, and its colour.
+// Reductions over a lane's bands, and its colour.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,15 +31,15 @@ void add_extremes(std::vector<Operation>& to, std::size_t bands) {
     op.operations = 2 * static_cast<double>(bands);  // compare, choose
     op.unit = "exact";
     op.run = [=](const KernelTable& k, const Arrays& a) { (k.*kernel)(a.out(), a.in(), bands, a.blocks); };
-    op.error = judged_by(
+    op.error = error_against(
         1,
-        [=](const double* v, double* truth, double* scale) {
+        [=](const double* v, double* reference, double* scale) {
           double found =
               least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
           for (std::size_t i = 0; i < bands; ++i) {
             if (least ? v[i] < found : found < v[i]) found = v[i];
           }
-          truth[0] = found;
+          reference[0] = found;
           scale[0] = std::abs(found);
         },
         1, true, 0);
@@ -50,14 +50,14 @@ void add_extremes(std::vector<Operation>& to, std::size_t bands) {
 }
 
 void add_masks(std::vector<Operation>& to, std::size_t bands) {
-  const auto mask = [&](const char* name, std::size_t planes, auto run, auto truth_of) {
+  const auto mask = [&](const char* name, std::size_t planes, auto run, auto is_reference) {
     Operation op = spectrum_operation(name, planes, bands);
     op.operations = static_cast<double>(bands);
     op.unit = "exact";
     op.out.element = Element::kMask;
     op.run = run;
     op.error = [=](const double* in, const double* out, double /*tiny*/) {
-      return (out[0] != 0) == truth_of(in) ? 0.0 : std::numeric_limits<double>::infinity();
+      return (out[0] != 0) == is_reference(in) ? 0.0 : std::numeric_limits<double>::infinity();
     };
     to.push_back(std::move(op));
   };
@@ -68,7 +68,7 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
       },
       [=](const double* v) { return std::all_of(v, v + bands, [](double x) { return x == 0; }); });
   to.back().bitwise = true;
-  // What is looked at until the first sample that is not 0 must be black to be looked at whole.
+  // The scan ends at the first sample that is not 0: only black lanes are scanned whole.
   to.back().fill = uniform_values(bands, 0.0F, 0.0F);
   mask(
       "has_nan", 1,
@@ -90,11 +90,11 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
 /// Sums of weights [count][bands] times samples, in double.
 Oracle weighted_by(const std::shared_ptr<const std::vector<double>>& weights, std::size_t bands,
                    std::size_t count) {
-  return [=](const double* v, double* truth, double* scale) {
+  return [=](const double* v, double* reference, double* scale) {
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < bands; ++i) {
         const double term = (*weights)[k * bands + i] * v[i];
-        truth[k] += term;
+        reference[k] += term;
         scale[k] += std::abs(term);
       }
     }
@@ -127,13 +127,13 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   xyz.out = {3, 1};
   xyz.operations = 3 * (count + sums);
   xyz.bound = count / 8 + 11;
-  xyz.binds =
+  xyz.bottleneck =
       "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
       "memory";
   xyz.run = [=](const KernelTable& k, const Arrays& a) {
     k.project(a.out(0), a.out(1), a.out(2), a.in(), projector->float_weights(), n, a.blocks);
   };
-  xyz.error = judged_by(3, weighted_by(weights, n, 3), count, false, xyz.bound);
+  xyz.error = error_against(3, weighted_by(weights, n, 3), count, false, xyz.bound);
   to.push_back(std::move(xyz));
 
   Operation y = spectrum_operation("luminance", 1, n);
@@ -143,7 +143,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   y.run = [=](const KernelTable& k, const Arrays& a) {
     k.weighted_sum(a.out(), a.in(), projector->luminance_weights(), n, a.blocks);
   };
-  y.error = judged_by(1, weighted_by(y_weights, n, 1), count, false, y.bound);
+  y.error = error_against(1, weighted_by(y_weights, n, 1), count, false, y.bound);
   to.push_back(std::move(y));
 
   Operation transform;
@@ -166,12 +166,12 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
     const float* const src[3] = {a.in(0), a.in(1), a.in(2)};
     k.transform3(dst, src, matrix->data(), a.n());
   };
-  transform.error = judged_by(
+  transform.error = error_against(
       3,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < 9; ++i) {
           const double term = (*exact_matrix)[i] * v[i % 3];
-          truth[i / 3] += term;
+          reference[i / 3] += term;
           scale[i / 3] += std::abs(term);
         }
       },

@@ -1,4 +1,4 @@
-// Sigmoid spectra: searched for, and evaluated in each of the ways that images and renderers need.
+// Sigmoid spectra: searched for, and evaluated in each of the forms that images and renderers need.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ using Shared = std::shared_ptr<const Upsampler>;
 
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
-/// A sample: nine fused multiply-adds, products and sums more, the limits, the guess from its bits.
+/// A sample: nine fused multiply-adds, further multiply-adds, the limits, the guess from its bits.
 constexpr double kSigmoidBand = 16;
 
 /// The sigmoid in double, from coefficients in float.
@@ -28,7 +28,7 @@ double sigmoid(const double* c, double lambda) {
   return std::clamp(0.5 + 0.5 * x / std::sqrt(1 + x * x), 0.0, 1.0);
 }
 
-double lambda_of(const SigmoidTable& table, std::size_t band) {
+double band_lambda(const SigmoidTable& table, std::size_t band) {
   return static_cast<double>(table.rows[band * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
 }
 
@@ -38,15 +38,15 @@ double allowed_at(const double* c, double lambda) {
 }
 
 /// Coefficients for which allowed_at() holds.
-bool promised(const double* c) {
+bool has_bound(const double* c) {
   return finite3(c) && std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) <= 0x1p60;
 }
 
 /// The colour that coefficients have.
-std::array<double, 3> sums_of(const SigmoidTable& table, const double* c) {
+std::array<double, 3> sigmoid_color(const SigmoidTable& table, const double* c) {
   std::array<double, 3> sum{};
   for (std::size_t b = 0; b < table.bands; ++b) {
-    const double s = sigmoid(c, lambda_of(table, b));
+    const double s = sigmoid(c, band_lambda(table, b));
     for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(table.weights[4 * b + k]) * s;
   }
   return sum;
@@ -63,20 +63,21 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   solve.in = {3, 1};
   solve.out = {3, 1};
   solve.unit = "1e-6 of the colour";
-  // Bands on which some colours have no sigmoid promise 1e-5 for what is not reported.
+  // Bands on which some colours have no sigmoid are bounded by 1e-5 where they are not reported.
   solve.bound = model.has_cube ? 1 : 10;
   solve.fill = uniform_values(3, 0.0F, 1.0F);
   // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
   // with the samples, their slopes and the nine sums of the derivatives.
   solve.operations = 2 * count * (kSigmoidBand + 20);
-  solve.binds = "further steps for the lanes of a vector that need them, gathers, and a 3 x 3 system a step";
+  solve.bottleneck =
+      "further steps for the lanes of a vector that need them, gathers, and a 3 x 3 system a step";
   solve.run = [=](const KernelTable& k, const Arrays& a) {
     float* const c[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
     thread_local std::vector<std::uint64_t> unsolved;
     unsolved.resize(a.blocks);
     k.sigmoid_solve(c, rgb, upsampler->sigmoid()->table, unsolved.data(), a.n());
-    // What is reported is marked for the judge.
+    // Unsolved colours are marked for the evaluation.
     for (std::size_t i = 0; i < a.n(); ++i) {
       if (unsolved[i / kLanes] == 0) {
         i += kLanes - 1;
@@ -92,7 +93,7 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
     if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kOutOfDomain;
     // Bands that have no sigmoid for some colours report them.
     if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kOutOfDomain;
-    const auto sum = sums_of(table, c);
+    const auto sum = sigmoid_color(table, c);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
     return worst / 1e-6;
@@ -100,12 +101,12 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   to.push_back(std::move(solve));
 }
 
-/// What the kernel's sums may be off by: each sample by its own rounding and by its slope times that of the
+/// Allowed error of the kernel's sums: each sample's by its own rounding and by its slope times that of the
 /// polynomial.
-std::array<double, 3> rounding_of_sums(const SigmoidTable& table, const double* c) {
+std::array<double, 3> sum_rounding(const SigmoidTable& table, const double* c) {
   std::array<double, 3> sum{};
   for (std::size_t b = 0; b < table.bands; ++b) {
-    const double l = lambda_of(table, b);
+    const double l = band_lambda(table, b);
     const double x = (c[0] * l + c[1]) * l + c[2];
     const double slope = 0.5 / std::pow(1 + x * x, 1.5);
     const double terms = std::abs(c[0]) * l * l + std::abs(c[1] * l) + std::abs(c[2]);
@@ -116,8 +117,8 @@ std::array<double, 3> rounding_of_sums(const SigmoidTable& table, const double* 
   return sum;
 }
 
-/// What sigmoid_solve does not find, for colours outside the cube as well as in it.
-void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
+/// Colours that sigmoid_solve does not find, for colours outside the cube as well as in it.
+void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = upsampler->sigmoid()->table;
   const auto count = static_cast<double>(table.bands);
   Operation op;
@@ -128,12 +129,12 @@ void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
   op.out = {4, 1};
   op.unit = "of what counts as found";
   op.bound = 1;
-  op.dear = 64;
+  op.expense = 64;
   op.cache_only = true;
   op.fill = uniform_values(3, 0.0F, 1.0F);
   // Some eight steps of the search, each as above.
   op.operations = 8 * count * (kSigmoidBand + 20);
-  op.binds = "steps without end for the lanes of a vector that need the most, up to 256";
+  op.bottleneck = "steps without end for the lanes of a vector that need the most, up to 256";
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const c[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
@@ -154,14 +155,14 @@ void add_reach(std::vector<Operation>& to, const Shared& upsampler) {
     if (size > 1e30) return kOutOfDomain;
     // Of black and white nothing is asked but their coefficients; where y rounds to either, any of the two.
     if (part == 0)
-      return std::abs(out[2]) >= static_cast<double>(kernels::kSigmoidFar) || promised(out) ? 0.0 : kBeyond;
+      return std::abs(out[2]) >= static_cast<double>(kernels::kSigmoidFar) || has_bound(out) ? 0.0 : kBeyond;
     const double grey = std::min(y, 1 - y);
     const auto met = std::min(static_cast<double>(kernels::kSigmoidUnsolved),
                               std::abs(grey) * static_cast<double>(kernels::kSigmoidMet));
     const double near = std::abs(grey) * static_cast<double>(kernels::kContinuationNear);
     const double found = std::max(part < 1 ? near : met, static_cast<double>(kernels::kSigmoidRounding));
-    const auto sum = sums_of(table, out);
-    const auto rounding = rounding_of_sums(table, out);
+    const auto sum = sigmoid_color(table, out);
+    const auto rounding = sum_rounding(table, out);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       // The goal is rounded too.
@@ -182,7 +183,8 @@ Operation evaluation(std::string name, std::size_t bands) {
   op.operations = kSigmoidBand * static_cast<double>(bands);
   op.unit = "stated bound";
   op.bound = 1;
-  op.binds = "one chain of sixteen operations a sample, of which sixteen registers hold few side by side";
+  op.bottleneck =
+      "one chain of sixteen operations a sample, of which sixteen registers hold few side by side";
   // Coefficients as those of real colours are.
   op.fill = uniform_values(3, -8.0F, 8.0F);
   return op;
@@ -192,10 +194,10 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = upsampler->sigmoid()->table;
   const std::size_t bands = table.bands;
   const auto samples_error = [=](const double* c, const double* out, double /*tiny*/) {
-    if (!promised(c)) return kOutOfDomain;
+    if (!has_bound(c)) return kOutOfDomain;
     double worst = 0;
     for (std::size_t b = 0; b < bands; ++b) {
-      const double l = lambda_of(table, b);
+      const double l = band_lambda(table, b);
       worst = std::max(worst, std::abs(out[b] - sigmoid(c, l)) / allowed_at(c, l));
     }
     return worst;
@@ -233,13 +235,13 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       line.unit = "half ULP of half";
       line.bound = 1.001;
       line.error = [=](const double* c, const double* out, double /*tiny*/) {
-        if (!promised(c)) return kOutOfDomain;
+        if (!has_bound(c)) return kOutOfDomain;
         double worst = 0;
         for (std::size_t b = 0; b < bands; ++b) {
-          const double l = lambda_of(table, b);
-          const double truth = sigmoid(c, l);
-          const double off = std::max(0.0, std::abs(out[b] - truth) - allowed_at(c, l));
-          worst = std::max(worst, off / half_of_half_step(truth));
+          const double l = band_lambda(table, b);
+          const double reference = sigmoid(c, l);
+          const double off = std::max(0.0, std::abs(out[b] - reference) - allowed_at(c, l));
+          worst = std::max(worst, off / half_of_half_step(reference));
         }
         return worst;
       };
@@ -258,12 +260,12 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     k.sigmoid_project(dst, c, nullptr, t.rows, false, t.weights, bands, a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {
-    if (!promised(c)) return kOutOfDomain;
-    const auto truth = sums_of(table, c);
+    if (!has_bound(c)) return kOutOfDomain;
+    const auto reference = sigmoid_color(table, c);
     std::array<double, 3> allowed{};
     const double roundings = static_cast<double>(bands) / 8 + 11;
     for (std::size_t b = 0; b < bands; ++b) {
-      const double l = lambda_of(table, b);
+      const double l = band_lambda(table, b);
       for (std::size_t k = 0; k < 3; ++k) {
         const double w = std::abs(static_cast<double>(table.weights[4 * b + k]));
         allowed[k] += w * (allowed_at(c, l) + roundings * 0x1p-24 * sigmoid(c, l) + tiny);
@@ -271,7 +273,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     }
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      worst = std::max(worst, std::abs(out[k] - truth[k]) / (allowed[k] + tiny));
+      worst = std::max(worst, std::abs(out[k] - reference[k]) / (allowed[k] + tiny));
     return worst;
   };
   to.push_back(std::move(sums));
@@ -279,7 +281,6 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
 
 /// One spectrum at many wavelengths.
 void add_at_wavelengths(std::vector<Operation>& to) {
-  static constexpr float kCoefficients[3] = {-3.0F, 1.0F, 0.5F};
   constexpr float kLowest = 400;
   constexpr float kHighest = 700;
   Operation op;
@@ -291,17 +292,17 @@ void add_at_wavelengths(std::vector<Operation>& to) {
   op.divisions = 1;
   op.unit = "stated bound";
   op.bound = 1;
-  op.binds = "one chain of sixteen dependent operations after a quotient";
+  op.bottleneck = "one chain of sixteen dependent operations after a division";
   op.fill = uniform_values(1, 360.0F, 830.0F);
   op.run = [](const KernelTable& k, const Arrays& a) {
-    k.sigmoid_at(a.out(), a.in(), kCoefficients, kLowest, kHighest, 1.0F, a.n());
+    k.sigmoid_at(a.out(), a.in(), kSigmoidAtWavelengths, kLowest, kHighest, 1.0F, a.n());
   };
   op.error = [](const double* v, const double* out, double /*tiny*/) {
     if (std::isnan(v[0])) return std::isnan(out[0]) ? 0.0 : kBeyond;
     const double held = std::clamp(v[0], static_cast<double>(kLowest), static_cast<double>(kHighest));
     const double l = sigmoid_lambda(held);
     double c[3];
-    for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kCoefficients[k]);
+    for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kSigmoidAtWavelengths[k]);
     // Lambda is rounded twice, which the polynomial's slope passes on.
     const double slope = std::abs(2 * c[0] * l + c[1]);
     const double allowed = allowed_at(c, l) + 0x1p-24 * slope * std::abs(l);
@@ -314,7 +315,7 @@ void add_at_wavelengths(std::vector<Operation>& to) {
 
 void add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
   add_search(to, upsampler);
-  add_reach(to, upsampler);
+  add_continuation(to, upsampler);
   add_evaluations(to, upsampler);
   add_at_wavelengths(to);
 }

@@ -18,7 +18,7 @@ using kernels::KernelTable;
 using kernels::kLanes;
 using kernels::kSmitsRow;
 
-/// What a mixture of bases costs before its first band: ordering three numbers and finding their bases.
+/// Cost of a mixture of bases before its first band: ordering three numbers and finding their bases.
 constexpr double kMixture = 22;
 /// And a band: two permutes, three products, two sums, the limit from below.
 constexpr double kMixtureBand = 8;
@@ -29,7 +29,7 @@ struct Mixture {
   std::size_t basis[3];
 };
 
-Mixture mixture_of(const double* rgb) {
+Mixture find_mixture(const double* rgb) {
   // In float, as the kernel must choose by the very numbers it was given; differences in double.
   const double least = std::min({rgb[0], rgb[1], rgb[2]});
   const double most = std::max({rgb[0], rgb[1], rgb[2]});
@@ -46,30 +46,30 @@ std::function<double(const double*, const double*, double)> mixture_error(
     const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
   double largest = 0;
   for (const double v : *basis) largest = std::max(largest, std::abs(v));
-  return judged_by(
+  return error_against(
       rows,
-      [=](const double* rgb, double* truth, double* scale) {
+      [=](const double* rgb, double* reference, double* scale) {
         // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
         if (!finite3(rgb)) {
           const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-          std::fill_n(truth, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+          std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
           std::fill_n(scale, rows, std::numeric_limits<double>::max());
           return;
         }
-        const Mixture m = mixture_of(rgb);
+        const Mixture m = find_mixture(rgb);
         double sum = 0;
         for (const double w : m.weight) sum += std::abs(w);
         for (std::size_t row = 0; row < rows; ++row) {
           double v = 0;
           for (std::size_t k = 0; k < 3; ++k) v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
-          truth[row] = std::max(v, lowest);
+          reference[row] = std::max(v, lowest);
           scale[row] = sum * largest;
         }
       },
       5 * std::max(1.0, largest), false, 6);  // two differences and three products, each times a basis
 }
 
-std::shared_ptr<const std::vector<double>> basis_of(const Upsampler& upsampler) {
+std::shared_ptr<const std::vector<double>> flat_basis(const Upsampler& upsampler) {
   auto out = std::make_shared<std::vector<double>>();
   for (const auto& row : upsampler.basis()) out->insert(out->end(), row.begin(), row.end());
   return out;
@@ -92,7 +92,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
     k.smits_blocks(a.out(), rgb, upsampler->table(), upsampler->lowest(), bands, a.blocks, a.non_temporal);
   };
-  op.error = mixture_error(basis_of(*upsampler), bands, 0);
+  op.error = mixture_error(flat_basis(*upsampler), bands, 0);
   to.push_back(op);
 
   // A line of an image: a row a band, as OpenEXR packs them.
@@ -121,10 +121,10 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out<std::uint16_t>(b);
     k.smits_rows_half(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
   };
-  const auto basis = basis_of(*upsampler);
+  const auto basis = flat_basis(*upsampler);
   op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
     if (!finite3(rgb)) return kOutOfDomain;
-    const Mixture m = mixture_of(rgb);
+    const Mixture m = find_mixture(rgb);
     double worst = 0;
     for (std::size_t row = 0; row < bands; ++row) {
       double v = 0;
@@ -152,7 +152,7 @@ void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relight
   op.out = {3, 1};
   op.operations = kMixture + 3 * (kMixtureBand - 1);
   op.bound = 6;
-  op.binds =
+  op.bottleneck =
       "ordering the components and choosing bases: selections, of which AVX2's take three micro-operations";
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
@@ -183,7 +183,7 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
   op.operations = 3 + 8 + 8 + 3 * 10 + 3 * 6;
   op.divisions = 6;
   op.cache_only = true;  // it works in place: the copy here would be another operation
-  op.binds = "copied first, as it works in place; six quotients a colour";
+  op.bottleneck = "copied first, as it works in place; six divisions a colour";
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const rgb[3] = {a.out(0), a.out(1), a.out(2)};
     for (std::size_t c = 0; c < 3; ++c) k.peak_copy(rgb[c], a.in(c), a.n());
@@ -211,12 +211,12 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
 }  // namespace
 
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
-  const auto made_of = [&](Method method) -> std::shared_ptr<const Upsampler> {
+  const auto create_upsampler = [&](Method method) -> std::shared_ptr<const Upsampler> {
     auto made = Upsampler::create(method, Quantity::kReflectance, bands);
     if (!made) return nullptr;
     return std::make_shared<const Upsampler>(*std::move(made));
   };
-  const auto smits = made_of(Method::kSmits);
+  const auto smits = create_upsampler(Method::kSmits);
   if (smits == nullptr) return make_error(ErrorCode::kOutOfMemory, "no memory for a table of bases");
   add_mixture(to, smits, "smits");
   // The exact methods need bands that tell colours apart: where there are none, there is nothing to measure.
@@ -226,7 +226,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
     add_gamut(to, *smits);
     return {};
   }
-  if (const auto exact = made_of(Method::kSmitsExact)) {
+  if (const auto exact = create_upsampler(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
     SPECTILE_ASSIGN(auto light, illuminant("A"));
     SPECTILE_ASSIGN(auto under, Projector::reflective(bands, light));
@@ -241,7 +241,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
                     Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
     add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
   }
-  if (const auto sigmoids = made_of(Method::kSigmoid)) add_sigmoids(to, sigmoids);
+  if (const auto sigmoids = create_upsampler(Method::kSigmoid)) add_sigmoids(to, sigmoids);
   add_gamut(to, *smits);
   return {};
 }

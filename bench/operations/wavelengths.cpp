@@ -33,7 +33,7 @@ Operation wavelength_operation(std::string name) {
 }
 
 /// Pairs of a value and the difference to the next one, of a spectrum at every nanometre.
-std::shared_ptr<const std::vector<float>> pairs_of(const Spectrum& spectrum) {
+std::shared_ptr<const std::vector<float>> value_pairs(const Spectrum& spectrum) {
   auto out = std::make_shared<std::vector<float>>();
   for (std::int32_t i = 0; i < kIntervals; ++i) {
     const auto a = static_cast<float>(spectrum(kFirstNm + static_cast<double>(i)));
@@ -59,24 +59,24 @@ std::array<double, 2> at_wavelength(const std::vector<float>& pairs, double lamb
 }
 
 void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
-  const auto pairs = pairs_of(spectrum);
+  const auto pairs = value_pairs(spectrum);
   Operation even = wavelength_operation("look up at 1 nm");
   // Place (8), a gather of a pair (two of its loads a lane), the line (2), what is outside (1), NaN (2).
   even.operations = 13;
-  even.binds = "gathers: two loads a lane from the table";
+  even.bottleneck = "gathers: two loads a lane from the table";
   even.bound = 4;
   even.run = [=](const KernelTable& k, const Arrays& a) {
     k.look_up_even(a.out(), a.in(), even_table(*pairs), a.n());
   };
-  even.error = judged_by(
+  even.error = error_against(
       1,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         if (std::isnan(v[0])) {
-          truth[0] = v[0];
+          reference[0] = v[0];
           return;
         }
         const auto found = at_wavelength(*pairs, v[0]);
-        truth[0] = found[0];
+        reference[0] = found[0];
         scale[0] = found[1];
       },
       1, false, even.bound);
@@ -88,7 +88,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   project.out = {3, 1};
   project.operations = kWavelengths * (8 + 1 + 3 * 7) + 3;
   project.divisions = kWavelengths;
-  project.binds = "gathers: six loads a lane and wavelength from the curves";
+  project.bottleneck = "gathers: six loads a lane and wavelength from the curves";
   project.bound = kWavelengths + 6;
   project.fill = [](Random& random, float* v) {
     for (std::size_t k = 0; k < kWavelengths; ++k) {
@@ -110,9 +110,9 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
     const EvenTable curves[3] = {even_table(*pairs), even_table(*pairs), even_table(*pairs)};
     k.project_wavelengths(dst, values, lambda, density, curves, 0.25F, kWavelengths, a.n());
   };
-  project.error = judged_by(
+  project.error = error_against(
       3,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         double sum = 0;
         double magnitudes = 0;
         for (std::size_t i = 0; i < kWavelengths; ++i) {
@@ -123,11 +123,11 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
               std::isnan(lambda) ? std::array<double, 2>{lambda, 0} : at_wavelength(*pairs, lambda);
           sum += found[0] * (v[i] / density);
           magnitudes += found[1] * std::abs(v[i] / density);
-          // A quotient beyond float's range is an infinity, and times 0 no number: not promised.
+          // A ratio beyond float's range is an infinity, and times 0 no number: out of the bound's domain.
           if (std::abs(v[i] / density) > 0x1p127) magnitudes = std::numeric_limits<double>::max();
         }
         for (std::size_t c = 0; c < 3; ++c) {
-          truth[c] = 0.25 * sum;
+          reference[c] = 0.25 * sum;
           scale[c] = 0.25 * magnitudes;
         }
       },
@@ -135,7 +135,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   to.push_back(std::move(project));
 }
 
-/// A spectrum as instruments give it: knots some nanometres apart, never evenly.
+/// A spectrum between irregular knots.
 Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
   struct Table {
     KnotIndex index;
@@ -143,12 +143,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     std::vector<float> pairs;
   };
   auto table = std::make_shared<Table>();
-  constexpr int kKnots = 95;
-  for (int i = 0; i < kKnots; ++i) {
-    // Up to two nanometres off an even place, by the golden ratio's multiples.
-    const double golden = static_cast<double>(i) / std::numbers::phi;
-    table->nm.push_back(static_cast<float>(360 + 5.0 * i + 4 * (golden - std::floor(golden)) - 2));
-  }
+  table->nm = irregular_knots();
   for (std::size_t i = 0; i < table->nm.size(); ++i) {
     const double here = spectrum(static_cast<double>(table->nm[i]));
     const std::size_t next = std::min(i + 1, table->nm.size() - 1);
@@ -162,7 +157,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
   Operation op = wavelength_operation("look up between irregular knots");
   // The bucket (4), a gather and a comparison a halving (3 each), the line (3), what is outside (4), NaN (2).
   op.operations = 13 + 3.0 * table->index.halvings;
-  op.binds = "gathers: of the bucket's knot, of each knot that is compared, of value and slope";
+  op.bottleneck = "gathers: of the bucket's knot, of each knot that is compared, of value and slope";
   op.bound = 3;
   op.run = [table](const KernelTable& k, const Arrays& a) {
     kernels::KnotTable knots;
@@ -175,11 +170,11 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     knots.halvings = table->index.halvings;
     k.look_up_knots(a.out(), a.in(), knots, a.n());
   };
-  op.error = judged_by(
+  op.error = error_against(
       1,
-      [table](const double* v, double* truth, double* scale) {
+      [table](const double* v, double* reference, double* scale) {
         if (std::isnan(v[0])) {
-          truth[0] = v[0];
+          reference[0] = v[0];
           return;
         }
         const auto& nm = table->nm;
@@ -189,7 +184,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
         const auto i = static_cast<std::size_t>(above - nm.begin()) - 1;
         const double from =
             (v[0] - static_cast<double>(nm[i])) * static_cast<double>(table->pairs[2 * i + 1]);
-        truth[0] = static_cast<double>(table->pairs[2 * i]) + from;
+        reference[0] = static_cast<double>(table->pairs[2 * i]) + from;
         scale[0] = std::abs(static_cast<double>(table->pairs[2 * i])) + std::abs(from);
       },
       2, false, op.bound);
@@ -198,11 +193,8 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
 }
 
 void add_planck(std::vector<Operation>& to) {
-  constexpr double kTemperature = 6504;
   constexpr double kUnitNm = 1024;
-  // h c / k, exact since the redefinition of 2019. Source: CODATA 2018.
-  constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;
-  const double exponent = kSecondRadiationNmK / kTemperature * std::numbers::log2e / kUnitNm;
+  const double exponent = kSecondRadiationNmK / kPlanckTemperature * std::numbers::log2e / kUnitNm;
   kernels::PlanckTable table;
   table.factor = 1;
   table.exponent = static_cast<float>(exponent);
@@ -211,22 +203,22 @@ void add_planck(std::vector<Operation>& to) {
   // Finite and positive (5), units, the exponent and its rest (7), the series, its factors (12), NaN (3).
   op.operations = 5 + 2 + 7 + kernels::kPlanckTerms + 14 + 3;
   op.divisions = 2;
-  op.binds = "two quotients and a chain of dependent products";
+  op.bottleneck = "two divisions and a chain of dependent multiplications";
   op.bound = 6;
   op.run = [=](const KernelTable& k, const Arrays& a) { k.planck(a.out(), a.in(), table, a.n()); };
   op.error = [=](const double* v, const double* out, double tiny) {
     const double lambda = v[0];
     if (std::isnan(lambda)) return std::isnan(out[0]) ? 0.0 : std::numeric_limits<double>::infinity();
-    // What the law is held to: 0.1 to 10^7 nm; elsewhere it must be a number that is not below 0.
+    // Domain of the bound: 0.1 to 10^7 nm; elsewhere it must be a number that is not below 0.
     if (!(lambda >= 0.1 && lambda <= 1e7)) {
       return out[0] >= 0 ? 0.0 : std::numeric_limits<double>::infinity();
     }
     const double l = lambda / kUnitNm;
     const double x = exponent / l;
-    const double truth = x > 252 ? 0 : 1 / (std::pow(l, 5) * std::expm1(x * std::numbers::ln2));
-    const double off = std::max(0.0, std::abs(out[0] - truth) - 2 * tiny);
+    const double reference = x > 252 ? 0 : 1 / (std::pow(l, 5) * std::expm1(x * std::numbers::ln2));
+    const double off = std::max(0.0, std::abs(out[0] - reference) - 2 * tiny);
     if (off == 0) return 0.0;
-    return truth > 0 ? off / (0x1p-24 * truth) : std::numeric_limits<double>::infinity();
+    return reference > 0 ? off / (0x1p-24 * reference) : std::numeric_limits<double>::infinity();
   };
   to.push_back(std::move(op));
 }
@@ -239,19 +231,19 @@ void add_gaussians(std::vector<Operation>& to) {
   Operation op = wavelength_operation("sum of 3 Gaussians");
   // In double, a lobe: place (4), its square and factor (2), hold (4), the power of two, amplitude and sum.
   op.operations = 4 + 6.0 * (4 + 2 + 4 + 4 + 2 * kernels::kExpTerms - 1 + 2 + 2);
-  op.binds = "three series, chains of dependent products and sums in double";
+  op.bottleneck = "three series, chains of dependent multiply-adds in double";
   op.bound = 1.002;
   op.run = [=](const KernelTable& k, const Arrays& a) {
     k.gaussians(a.out(), a.in(), lobes.data(), lobes.size(), a.n());
   };
-  op.error = judged_by(
+  op.error = error_against(
       1,
-      [=](const double* v, double* truth, double* scale) {
+      [=](const double* v, double* reference, double* scale) {
         for (const auto& lobe : lobes) {
           const double from = v[0] - lobe.mean_nm;
           const double z = from * (from < 0 ? lobe.per_sigma_left : lobe.per_sigma_right);
           const double term = lobe.amplitude * std::exp(-0.5 * z * z);
-          truth[0] += term;
+          reference[0] += term;
           scale[0] += std::abs(term);
         }
       },
@@ -277,12 +269,13 @@ void add_draws(std::vector<Operation>& to) {
     op.out = {2 * kWavelengths, 1};
     op.fill = uniform_values(1, 0.0F, 1.0F);
     op.operations = 2 + kWavelengths * (5 + 2);
-    op.binds = "selections, of which AVX2's take three micro-operations, and eight rows of stores at once";
+    op.bottleneck =
+        "selections, of which AVX2's take three micro-operations, and eight rows of stores at once";
     if (visible) {
-      // In double: y (2), the logarithm of a quotient, twice a product and a sum.
+      // In double: y (2), the logarithm of a ratio, twice a product and a sum.
       op.operations += kWavelengths * 2 * (2 + 2 + 15 + 2 * kernels::kAtanhTerms - 1 + 6);
       op.divisions = 8 * kWavelengths;
-      op.binds = "two quotients in double a wavelength, and a series of dependent products";
+      op.bottleneck = "two divisions in double a wavelength, and a series of dependent multiplications";
     }
     op.bound = 2;
     op.run = [=](const KernelTable& k, const Arrays& a) {
@@ -294,9 +287,9 @@ void add_draws(std::vector<Operation>& to) {
       }
       (visible ? k.visible_wavelengths : k.even_wavelengths)(lambda, density, a.in(), d, kWavelengths, a.n());
     };
-    op.error = judged_by(
+    op.error = error_against(
         2 * kWavelengths,
-        [=](const double* v, double* truth, double* scale) {
+        [=](const double* v, double* reference, double* scale) {
           const double first = std::isnan(v[0]) ? v[0] : std::clamp(v[0], 0.0, 1 - 0x1p-24);
           for (std::size_t i = 0; i < kWavelengths; ++i) {
             // A sum in float that reaches 1 starts anew at 0, and its rounding with it.
@@ -304,11 +297,11 @@ void add_draws(std::vector<Operation>& to) {
                 static_cast<float>(first) + static_cast<float>(i) / static_cast<float>(kWavelengths);
             const double u = moved >= 1.0F ? static_cast<double>(moved - 1.0F) : static_cast<double>(moved);
             const double y = d.from - u * d.by;
-            truth[i] = visible ? kCentre - std::atanh(y) / kSteepness : 360 + u * 470;
-            truth[kWavelengths + i] = visible ? d.peak * (1 - y * y) : 1.0 / 470;
-            if (std::isnan(v[0]) && !visible) truth[kWavelengths + i] = 1.0 / 470;
-            scale[i] = std::abs(truth[i]);
-            scale[kWavelengths + i] = std::abs(truth[kWavelengths + i]);
+            reference[i] = visible ? kCentre - std::atanh(y) / kSteepness : 360 + u * 470;
+            reference[kWavelengths + i] = visible ? d.peak * (1 - y * y) : 1.0 / 470;
+            if (std::isnan(v[0]) && !visible) reference[kWavelengths + i] = 1.0 / 470;
+            scale[i] = std::abs(reference[i]);
+            scale[kWavelengths + i] = std::abs(reference[kWavelengths + i]);
           }
         },
         0, false, op.bound);
@@ -317,6 +310,17 @@ void add_draws(std::vector<Operation>& to) {
 }
 
 }  // namespace
+
+std::vector<float> irregular_knots() {
+  constexpr int kKnots = 95;
+  std::vector<float> out;
+  for (int i = 0; i < kKnots; ++i) {
+    // Up to two nanometres off an even place, by the golden ratio's multiples.
+    const double golden = static_cast<double>(i) / std::numbers::phi;
+    out.push_back(static_cast<float>(360 + 5.0 * i + 4 * (golden - std::floor(golden)) - 2));
+  }
+  return out;
+}
 
 Result<void> add_wavelengths(std::vector<Operation>& to) {
   SPECTILE_ASSIGN(const auto y, named_spectrum("cie1931-y"));

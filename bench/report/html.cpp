@@ -82,14 +82,15 @@ Section reproduce_section(const BenchmarkReport& report) {
           escaped(version))};
 }
 
-std::string summary_of(const BenchmarkReport& report) {
+std::string summary(const BenchmarkReport& report) {
   std::vector<std::string> parts;
   const auto count = [&](std::size_t n, const char* what) {
     if (n > 0) parts.push_back(fmt::format("{} {}", count_text(n), what));
   };
-  count(report.ways.size(), "timings of ways to do a job");
+  count(report.methods.size(), "timings of methods");
   count(report.representations.size(), "of representations");
   count(report.operations.size(), "of operations");
+  count(report.baseline.size(), "beside the AoS baseline");
   if (!report.stress.empty()) {
     const auto beyond = std::count_if(report.stress.begin(), report.stress.end(), is_beyond);
     parts.push_back(beyond == 0
@@ -117,9 +118,10 @@ std::string navigation(const std::vector<Section>& sections) {
 std::string benchmark_to_html(const BenchmarkReport& benchmark) {
   using report::Section;
   std::vector<Section> sections = {report::advice_section(benchmark)};
-  for (Section& section : report::way_sections(benchmark)) sections.push_back(std::move(section));
+  for (Section& section : report::method_sections(benchmark)) sections.push_back(std::move(section));
   sections.push_back(report::representation_section(benchmark));
   sections.push_back(report::operation_section(benchmark));
+  sections.push_back(report::baseline_section(benchmark));
   sections.push_back(report::limit_section(benchmark));
   sections.push_back(report::scaling_section(benchmark));
   sections.push_back(report::stress_section(benchmark));
@@ -136,11 +138,12 @@ std::string benchmark_to_html(const BenchmarkReport& benchmark) {
       "<p>spectile computes with spectra in place of colours; this page says what its operations cost on one "
       "machine "
       "in one run, as a share of what that machine can do, and how wrong each is. "
-      "For every way of doing a job it sets the time against the colour error that is left, in CIEDE2000, of "
+      "For every method of doing a job it sets the time against the colour error that is left, in CIEDE2000, "
+      "of "
       "which "
       "about 1 can just be seen, so that you can take the fastest that is good enough.</p>\n{}</header>\n{}"
       "<main>\n{}{}{}</main>\n</body>\n</html>\n",
-      title, report::kStyleSheet, title, report::summary_of(benchmark), report::navigation(sections),
+      title, report::kStyleSheet, title, report::summary(benchmark), report::navigation(sections),
       report::machine_part(benchmark), report::warning_part(benchmark), body);
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/report/chart/svg_chart.hpp"
 #include "bench/report/sections.hpp"
-#include "bench/report/svg_chart.hpp"
 #include "bench/report/table.hpp"
 
 namespace spectile::report {
@@ -14,7 +14,7 @@ namespace {
 using Rows = std::vector<const RepresentationSpeed*>;
 
 /// Those of a light and a name, by bounces.
-Rows rows_of(const BenchmarkReport& report, const std::string& light, const std::string& name) {
+Rows representation_rows(const BenchmarkReport& report, const std::string& light, const std::string& name) {
   Rows rows;
   for (const RepresentationSpeed& r : report.representations) {
     if (r.light == light && r.name == name) rows.push_back(&r);
@@ -24,8 +24,8 @@ Rows rows_of(const BenchmarkReport& report, const std::string& light, const std:
   return rows;
 }
 
-Chart chart_of(const BenchmarkReport& report, const std::string& light,
-               const std::vector<std::string>& names) {
+Chart make_chart(const BenchmarkReport& report, const std::string& light,
+                 const std::vector<std::string>& names) {
   Chart chart;
   chart.title = "Representations, 1 bounce and more; light: " + light;
   chart.description = chart.title + ". Mean CIEDE2000 against nanoseconds a path.";
@@ -36,7 +36,7 @@ Chart chart_of(const BenchmarkReport& report, const std::string& light,
     series.name = names[i];
     series.style = static_cast<int>(i) + 1;
     series.line = true;
-    for (const RepresentationSpeed* r : rows_of(report, light, names[i])) {
+    for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
       ChartMark mark;
       mark.x = r->nanoseconds;
       mark.y = r->error.mean;
@@ -62,7 +62,7 @@ std::string overview(const BenchmarkReport& report, const std::string& light,
   for (const int b : bounces) columns.push_back({fmt::format("{} bounce{}", b, b == 1 ? "" : "s")});
   Table table(light + ": CIEDE2000, mean, after so many bounces", columns);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const Rows rows = rows_of(report, light, names[i]);
+    const Rows rows = representation_rows(report, light, names[i]);
     if (rows.empty()) continue;
     std::vector<Html> cells = {{mark_in_text(static_cast<int>(i) + 1).code + " " + escaped(names[i])}};
     for (const int b : bounces) {
@@ -88,7 +88,7 @@ std::string details(const BenchmarkReport& report, const std::string& light,
                {"coefficients"}});
   std::size_t count = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    for (const RepresentationSpeed* r : rows_of(report, light, names[i])) {
+    for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
       table.row({{mark_in_text(static_cast<int>(i) + 1).code + " " + escaped(r->name)},
                  html(fmt::format("{}", r->bounces)),
                  html(number(r->nanoseconds)),
@@ -118,11 +118,12 @@ Section representation_section(const BenchmarkReport& report) {
       "The "
       "number beside a mark is that of the bounces.</p>\n";
   for (const std::string& light : distinct(report.representations, [](const auto& r) { return r.light; })) {
-    const bool spiky = std::any_of(report.representations.begin(), report.representations.end(),
-                                   [&](const auto& r) { return r.light == light && r.spiky; });
-    const Chart chart = chart_of(report, light, names);
+    const bool line_spectrum =
+        std::any_of(report.representations.begin(), report.representations.end(),
+                    [&](const auto& r) { return r.light == light && r.line_spectrum; });
+    const Chart chart = make_chart(report, light, names);
     section.code += fmt::format("<section class=\"light\">\n<h3>{}{}</h3>\n", escaped(light),
-                                spiky ? " <span class=\"badge\">has lines</span>" : "");
+                                line_spectrum ? " <span class=\"badge\">has lines</span>" : "");
     const std::string wide = svg_chart(chart, ChartForm::kWide);
     if (!wide.empty()) {
       section.code += fmt::format(

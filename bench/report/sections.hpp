@@ -7,7 +7,7 @@
 
 namespace spectile::report {
 
-/// What a page's navigation leads to.
+/// A section of the page, listed in its navigation.
 struct Section {
   std::string id;
   std::string name;  ///< in the navigation
@@ -18,16 +18,18 @@ struct Section {
 extern const char* const kStyleSheet;
 
 /// Per job and light: error against time, and its table.
-std::vector<Section> way_sections(const BenchmarkReport& report);
+std::vector<Section> method_sections(const BenchmarkReport& report);
 Section representation_section(const BenchmarkReport& report);
 Section operation_section(const BenchmarkReport& report);
+/// The engine beside the AoS baseline.
+Section baseline_section(const BenchmarkReport& report);
 Section limit_section(const BenchmarkReport& report);
 Section scaling_section(const BenchmarkReport& report);
 Section stress_section(const BenchmarkReport& report);
 
 /// A row whose numbers do not hold: some cases beyond the bound, or the worst is.
 bool is_beyond(const StressResult& result);
-std::string name_of(MemoryLevel level);
+std::string level_name(MemoryLevel level);
 
 /// The values of a field in their order of appearance, each once.
 template <class T, class F>

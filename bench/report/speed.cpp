@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kLevels = {MemoryLevel::kCache, MemoryLevel::kMemory};
 
-int rank_of(const BenchmarkMachine& machine, const std::string& isa) {
+int isa_rank(const BenchmarkMachine& machine, const std::string& isa) {
   return static_cast<int>(std::find(machine.isas.begin(), machine.isas.end(), isa) - machine.isas.begin());
 }
 
@@ -22,7 +22,7 @@ int rank_of(const BenchmarkMachine& machine, const std::string& isa) {
 std::vector<const OperationSpeed*> main_rows(const BenchmarkReport& report, MemoryLevel level) {
   std::vector<const OperationSpeed*> rows;
   const auto known = [&](const OperationSpeed& o) {
-    const int rank = rank_of(report.machine, o.isa);
+    const int rank = isa_rank(report.machine, o.isa);
     return rank == static_cast<int>(report.machine.isas.size()) ? -1 : rank;
   };
   for (const OperationSpeed& o : report.operations) {
@@ -60,13 +60,13 @@ Html fraction_cell(double fraction) {
                   100 * std::clamp(fraction, 0.0, 1.0), percent(fraction))};
 }
 
-/// What binds it, and why its limit is not reached.
+/// Limiting resource, and the bottleneck where its limit is not reached.
 Html limit_cell(const BenchmarkReport& report, const OperationSpeed& o) {
   return {escaped(limit_in_words(report, o)) +
           (o.note.empty() ? "" : " <small>" + escaped(o.note) + "</small>")};
 }
 
-std::vector<Html> cells_of(const BenchmarkReport& report, const OperationSpeed& o, bool full) {
+std::vector<Html> row_cells(const BenchmarkReport& report, const OperationSpeed& o, bool full) {
   // Written so that an error that is no number is beyond.
   const bool beyond = !(o.error <= o.bound);
   std::vector<Html> cells = {html(o.name)};
@@ -92,19 +92,19 @@ Table operation_table(const BenchmarkReport& report, const std::vector<const Ope
                                  {"bound"},
                                  {"bytes/s"},
                                  {"spread"},
-                                 {"what binds it", true}});
+                                 {"limiting resource", true}});
   Table table(caption, columns);
   for (const std::string& group : distinct(rows, [](const OperationSpeed* o) { return o->group; })) {
     table.group(group);
     for (const OperationSpeed* o : rows) {
-      if (o->group == group) table.row(cells_of(report, *o, full));
+      if (o->group == group) table.row(row_cells(report, *o, full));
     }
   }
   return table;
 }
 
 /// "avx512, 1 thread" of rows that agree in it; where they do not, in words.
-std::string how_measured(const std::vector<const OperationSpeed*>& rows) {
+std::string measurement_place(const std::vector<const OperationSpeed*>& rows) {
   const bool same = std::all_of(rows.begin(), rows.end(), [&](const OperationSpeed* o) {
     return o->isa == rows.front()->isa && o->threads == rows.front()->threads;
   });
@@ -120,23 +120,23 @@ std::string level_part(const BenchmarkReport& report, MemoryLevel level) {
   }
   if (all.empty()) return {};
   const auto main = main_rows(report, level);
-  std::string out =
-      fmt::format("<h3>In {}</h3>\n{}", escaped(name_of(level)),
-                  operation_table(report, main,
-                                  "In " + name_of(level) + ": every operation, " + how_measured(main), false)
-                      .code());
+  std::string out = fmt::format(
+      "<h3>In {}</h3>\n{}", escaped(level_name(level)),
+      operation_table(report, main,
+                      "In " + level_name(level) + ": every operation, " + measurement_place(main), false)
+          .code());
   if (all.size() > main.size()) {
     out += fmt::format(
         "<details><summary>Every instruction set and number of threads: {} rows</summary>\n{}</details>\n",
         all.size(),
-        operation_table(report, all, "In " + name_of(level) + ": every measurement", true).code());
+        operation_table(report, all, "In " + level_name(level) + ": every measurement", true).code());
   }
   return out;
 }
 
 }  // namespace
 
-std::string name_of(MemoryLevel level) {
+std::string level_name(MemoryLevel level) {
   return level == MemoryLevel::kCache ? "second-level cache" : "memory";
 }
 
@@ -145,7 +145,8 @@ Section operation_section(const BenchmarkReport& report) {
   if (report.operations.empty()) return section;
   section.code =
       "<section id=\"operations\">\n<h2>Operations against the machine's limits</h2>\n"
-      "<p>The bar is the share of the limit that binds the operation: how fast this machine loads, stores, "
+      "<p>The bar is the share of the operation's limit that it reaches: how fast this machine loads, "
+      "stores, "
       "copies, or "
       "multiplies and adds with nothing else to do, measured in the same run. A share above 100 % beats the "
       "plain loop that the limit was measured with. Bytes are those that an operation must "
@@ -153,6 +154,39 @@ Section operation_section(const BenchmarkReport& report) {
       "magnitudes.</p>\n";
   for (const MemoryLevel level : kLevels) section.code += level_part(report, level);
   section.code += "</section>\n";
+  return section;
+}
+
+Section baseline_section(const BenchmarkReport& report) {
+  Section section{"baseline", "AoS baseline", ""};
+  if (report.baseline.empty()) return section;
+  Table table("The engine and the baseline, one thread, " + report.machine.processor, {{"operation", true},
+                                                                                       {"engine, ns"},
+                                                                                       {"baseline, ns"},
+                                                                                       {"ratio"},
+                                                                                       {"tuned by hand, ns"},
+                                                                                       {"ratio"},
+                                                                                       {"engine's error"},
+                                                                                       {"baseline's error"},
+                                                                                       {"of its limit"},
+                                                                                       {"limit", true}});
+  for (const std::string& group : distinct(report.baseline, [](const BaselineSpeed& b) { return b.group; })) {
+    table.group(group);
+    for (const BaselineSpeed& b : report.baseline) {
+      if (b.group != group) continue;
+      const bool tuned = b.fused_nanoseconds > 0;
+      table.row({html(b.name), html(number(b.nanoseconds)), html(number(b.baseline_nanoseconds)),
+                 html(number(b.ratio)), html(tuned ? number(b.fused_nanoseconds) : kDash),
+                 html(tuned ? number(b.fused_ratio) : kDash), html(quantity(b.error, b.error_unit)),
+                 html(quantity(b.baseline_error, b.error_unit)), fraction_cell(b.fraction), html(b.limit)});
+    }
+  }
+  section.code = fmt::format(
+      "<section id=\"baseline\">\n<h2>Against a scalar array of structures</h2>\n<p>The baseline is a struct "
+      "of "
+      "samples a pixel in plain C++, compiled with -O3 for this processor. Ratios differ from processor to "
+      "processor.</p>\n{}</section>\n",
+      table.code());
   return section;
 }
 
@@ -173,7 +207,7 @@ Section limit_section(const BenchmarkReport& report) {
     bool first = true;
     for (const MachineLimit& l : report.limits) {
       if (l.level != level) continue;
-      if (first) table.group(name_of(level));
+      if (first) table.group(level_name(level));
       first = false;
       table.row({html(l.isa), html(fmt::format("{}", l.threads)), html(with_prefix(l.load, "B/s")),
                  html(with_prefix(l.store, "B/s")), html(with_prefix(l.stream, "B/s")),
@@ -184,11 +218,12 @@ Section limit_section(const BenchmarkReport& report) {
   }
   section.code = fmt::format(
       "<section id=\"limits\">\n<h2>The machine's limits</h2>\n"
-      "<p>Load: bytes read. Store: written by ordinary stores. Stream: written round the caches. Copy: bytes "
+      "<p>Load: bytes read. Store: written by ordinary stores. Stream: written by non-temporal stores. Copy: "
+      "bytes "
       "read and "
-      "written, together. Multiply-add: float products and sums, rounded one by one, each counted. Fused: "
+      "written, together. Multiply-add: multiply, then add, each rounded and counted. Fused: "
       "each fused "
-      "multiply-add counted once. Divide: float quotients.</p>\n{}</section>\n",
+      "multiply-add counted once. Divide: float divisions.</p>\n{}</section>\n",
       table.code());
   return section;
 }
@@ -217,7 +252,7 @@ Section scaling_section(const BenchmarkReport& report) {
             html(there ? fmt::format("{} ({})", number(found->speed_up), number(found->limit)) : kDash));
       }
       if (!any) continue;
-      if (first) table.group(name_of(level));
+      if (first) table.group(level_name(level));
       first = false;
       table.row(cells);
     }

@@ -9,7 +9,7 @@
 namespace spectile::report {
 namespace {
 
-std::vector<Html> cells_of(const StressResult& s) {
+std::vector<Html> row_cells(const StressResult& s) {
   const Html verdict = is_beyond(s) ? Html{"<span class=\"badge bad\">beyond</span>"} : html("holds");
   return {{escaped(s.operation) + " <small>" + escaped(s.inputs) + "</small>"},
           verdict,
@@ -43,7 +43,7 @@ Section stress_section(const BenchmarkReport& report) {
                {"worst case", true}});
   for (const bool bad : {true, false}) {
     for (const StressResult& s : report.stress) {
-      if (is_beyond(s) == bad) table.row(cells_of(s), bad ? "beyond" : "");
+      if (is_beyond(s) == bad) table.row(row_cells(s), bad ? "beyond" : "");
     }
   }
   const std::string verdict =

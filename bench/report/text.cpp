@@ -175,7 +175,7 @@ std::string count_text(std::uint64_t count) {
   return grouped(fmt::format("{}", count));
 }
 
-std::size_t length_of(std::string_view text) {
+std::size_t display_width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }

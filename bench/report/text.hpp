@@ -19,7 +19,7 @@ inline Html html(std::string_view text) {
   return {escaped(text)};
 }
 
-/// What a number that is not finite, or not known, is written as.
+/// Stands for a number that is not finite, or not known.
 inline constexpr const char* kDash = "–";
 
 enum class Zeros { kKeep, kDrop };
@@ -41,6 +41,6 @@ std::string count_text(std::uint64_t count);
 std::string power_of_ten(int exponent);
 
 /// Columns of a fixed-width font that text takes: its code points.
-std::size_t length_of(std::string_view text);
+std::size_t display_width(std::string_view text);
 
 }  // namespace spectile::report

@@ -114,7 +114,7 @@ const InputSet kSets[] = {
      }},
 };
 
-/// Numbers below the least normal one are taken and given as 0 while it exists, where the processor can.
+/// Numbers below the smallest normal one are taken and given as 0 while it exists, where the processor can.
 class FlushToZero {
  public:
   explicit FlushToZero(bool on) {
@@ -163,14 +163,14 @@ struct Found {
 void try_set(const Operation& op, const char* set, const std::function<void(Random&, float*)>& fill,
              bool flushed, const std::string& where, const StressSettings& settings,
              std::vector<float>& memory, Found& found) {
-  const std::size_t lanes =
-      std::max<std::size_t>(kernels::kLanes, settings.samples / op.dear / (op.in.values() + op.out.values()) /
-                                                 kernels::kLanes * kernels::kLanes);
+  const std::size_t lanes = std::max<std::size_t>(
+      kernels::kLanes,
+      settings.samples / op.expense / (op.in.values() + op.out.values()) / kernels::kLanes * kernels::kLanes);
   const std::size_t blocks = lanes / kernels::kLanes;
-  memory.resize(LaneMemory::least_bytes(op, blocks) / sizeof(float) + 32);
+  memory.resize(LaneMemory::min_bytes(op, blocks) / sizeof(float) + 32);
   float* aligned = memory.data();
   while (reinterpret_cast<std::uintptr_t>(aligned) % 64 != 0) ++aligned;
-  LaneMemory at(op, aligned, LaneMemory::least_bytes(op, blocks));
+  LaneMemory at(op, aligned, LaneMemory::min_bytes(op, blocks));
   Random random(settings.seed);
   std::vector<float> values(op.in.values());
   for (std::size_t lane = 0; lane < at.lanes(); ++lane) {
@@ -183,18 +183,18 @@ void try_set(const Operation& op, const char* set, const std::function<void(Rand
     const FlushToZero mode(flushed);
     op.run(*settings.table, at.arrays(0, at.blocks(), false));
   }
-  Judged judged;
-  judge(op, at, at.lanes(), flushed, judged);
+  Evaluation evaluation;
+  evaluate_errors(op, at, at.lanes(), flushed, evaluation);
   StressResult& r = found.result;
-  r.cases += judged.cases;
-  r.beyond += judged.beyond;
-  const double part = op.bound > 0 ? judged.worst / op.bound : judged.worst;
-  if (judged.cases > 0 && (r.worst_case.empty() || !(part <= found.part))) {
+  r.cases += evaluation.cases;
+  r.beyond += evaluation.beyond;
+  const double part = op.bound > 0 ? evaluation.worst / op.bound : evaluation.worst;
+  if (evaluation.cases > 0 && (r.worst_case.empty() || !(part <= found.part))) {
     found.part = part;
-    r.worst = judged.worst;
+    r.worst = evaluation.worst;
     r.bound = op.bound;
     r.worst_case = fmt::format("{}{}{}: {}", set, where, flushed ? ", flushed to zero" : "",
-                               described(judged.worst_input));
+                               described(evaluation.worst_input));
   }
 }
 

@@ -41,7 +41,7 @@ StressResult heading(std::string inputs, std::string unit, double bound) {
 }
 
 /// A film of one pixel a lane that keeps spectra, so that a sample is what was added.
-Result<Film> film_of(int width, int height, const Bands& bands, bool negative_weights) {
+Result<Film> make_film(int width, int height, const Bands& bands, bool negative_weights) {
   FilmOptions o;
   o.width = width;
   o.height = height;
@@ -55,7 +55,7 @@ Result<Film> film_of(int width, int height, const Bands& bands, bool negative_we
 
 Result<FilmDevelopment> develop(const Film& film, FilmLayer layer) {
   SPECTILE_ASSIGN(auto out, FilmDevelopment::create(film, layer));
-  SPECTILE_ASSIGN(const auto done, out.update({1}));
+  SPECTILE_TRY(out.update({1}));
   return out;
 }
 
@@ -63,7 +63,7 @@ Result<FilmDevelopment> develop(const Film& film, FilmLayer layer) {
 Result<StressResult> film_counts(const StressSettings& /*settings*/) {
   StressResult out = heading("2^24 + 1 samples of 1 in one pixel", "exact", 0);
   SPECTILE_ASSIGN(const auto bands, Bands::uniform(400, 700, 100));
-  SPECTILE_ASSIGN(auto film, film_of(1, 1, bands, false));
+  SPECTILE_ASSIGN(auto film, make_film(1, 1, bands, false));
   constexpr std::size_t kPart = 65281;  // 2^24 + 1 = 257 * 65281
   const std::vector<float> at(kPart, 0.5F);
   const std::vector<float> ones(3 * kPart, 1.0F);
@@ -86,7 +86,7 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
   SPECTILE_ASSIGN(const auto bands, Bands::uniform(400, 700, 300));
   constexpr int kSide = 64;
   constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
-  SPECTILE_ASSIGN(auto film, film_of(kSide, kSide, bands, false));
+  SPECTILE_ASSIGN(auto film, make_film(kSide, kSide, bands, false));
   Random random(settings.seed);
   std::vector<float> x(kPixels), y(kPixels), value(kPixels);
   std::vector<double> sum(kPixels, 0.0);
@@ -113,11 +113,11 @@ Result<StressResult> film_cancellation(const StressSettings& settings) {
   }
   SPECTILE_ASSIGN(const auto spectrum, develop(film, FilmLayer::kSpectrum));
   for (std::size_t i = 0; i < kPixels; ++i) {
-    const double truth = sum[i] / (3.0 * rounds);
+    const double reference = sum[i] / (3.0 * rounds);
     const auto found =
         static_cast<double>(spectrum.at(0, static_cast<int>(i % kSide), static_cast<int>(i / kSide)));
-    const double error =
-        truth == 0 ? std::abs(found) * 0x1p100 : std::abs(found - truth) / std::abs(truth) * 0x1p24;
+    const double error = reference == 0 ? std::abs(found) * 0x1p100
+                                        : std::abs(found - reference) / std::abs(reference) * 0x1p24;
     note(out, error, fmt::format("a pixel whose samples sum to {:.9g}", sum[i]));
   }
   return out;
@@ -132,7 +132,7 @@ Result<StressResult> film_anything(const StressSettings& settings) {
   Random random(settings.seed);
   const std::size_t n = std::max<std::size_t>(4096, settings.samples / 8);
   for (const bool negative : {false, true}) {
-    SPECTILE_ASSIGN(auto film, film_of(kSide, kSide, bands, negative));
+    SPECTILE_ASSIGN(auto film, make_film(kSide, kSide, bands, negative));
     std::vector<float> x(n), y(n), weight(n), radiance(3 * n);
     const auto any = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(random() >> 32U)); };
     for (std::size_t i = 0; i < n; ++i) {
@@ -191,9 +191,9 @@ Result<StressResult> band_averages(const StressSettings& settings) {
       const std::vector<float> found = spectrum.average_over(bands);
       const double largest = *std::max_element(values.begin(), values.end());
       for (std::size_t b = 0; b < bands.count(); ++b) {
-        const double truth = oracle::average(spectrum.wavelengths_nm(), spectrum.values(),
-                                             (bands)[b].lower_nm, (bands)[b].upper_nm);
-        note(out, std::abs(static_cast<double>(found[b]) - truth) / (0x1p-24 * largest),
+        const double reference = oracle::average(spectrum.wavelengths_nm(), spectrum.values(),
+                                                 (bands)[b].lower_nm, (bands)[b].upper_nm);
+        note(out, std::abs(static_cast<double>(found[b]) - reference) / (0x1p-24 * largest),
              fmt::format("a spectrum at {} nm over {}", line, text));
       }
     }
@@ -204,17 +204,17 @@ Result<StressResult> band_averages(const StressSettings& settings) {
 /// Weights of XYZ under lights with lines, on one band and on many.
 Result<StressResult> projection_weights(const StressSettings& settings) {
   // The oracle sums at 0.01 nm: that is what it is off by itself.
-  StressResult out = heading("lights smooth and spiky, bands of 0.5 to 470 nm", "of Y", 1e-7);
+  StressResult out = heading("lights smooth and with lines, bands of 0.5 to 470 nm", "of Y", 1e-7);
   for (const char* text : {"360:830:470", "400:700:5", "380:780:0.5"}) {
     SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
     for (const char* name : {"D65", "A", "FL11", "HP1", "LED-RGB1"}) {
       if (settings.few_bands && std::string_view(name) != "FL11") continue;
       SPECTILE_ASSIGN(const auto light, illuminant(name));
       SPECTILE_ASSIGN(const auto found, Projector::reflective(bands, light));
-      const auto truth = oracle::projection_weights(bands, Observer::kCie1931, &light);
+      const auto reference = oracle::projection_weights(bands, Observer::kCie1931, &light);
       for (std::size_t b = 0; b < bands.count(); ++b) {
         for (std::size_t k = 0; k < 3; ++k) {
-          note(out, std::abs(found.weights()[b][k] - truth[b][k]), fmt::format("{} on {}", name, text));
+          note(out, std::abs(found.weights()[b][k] - reference[b][k]), fmt::format("{} on {}", name, text));
         }
       }
     }
@@ -304,11 +304,11 @@ Result<StressResult> folding(const StressSettings& settings) {
             xyz[k] += under.weights()[b][k] * static_cast<double>(spectra->at(i, b));
           }
         }
-        const auto truth = times(under.xyz_to_srgb(), xyz);
+        const auto reference = times(under.xyz_to_srgb(), xyz);
         const double largest = static_cast<double>(std::max({rgb->at(i, 0), rgb->at(i, 1), rgb->at(i, 2)}));
         if (largest == 0) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-          const double off = std::abs(static_cast<double>(folded->at(i, k)) - truth[k]) / largest;
+          const double off = std::abs(static_cast<double>(folded->at(i, k)) - reference[k]) / largest;
           note(out, off / relighter.bound()[k], fmt::format("{} under {}", to_string(method), name));
         }
       }

@@ -8,7 +8,7 @@
 
 namespace spectile::measure {
 
-/// How much is tried.
+/// Extent of the stress test.
 struct StressSettings {
   const kernels::KernelTable* table = nullptr;
   std::size_t samples = std::size_t{1} << 16;  ///< numbers a set of inputs, for each operation
@@ -20,10 +20,10 @@ struct StressSettings {
 
 /// The kernels' operations: typical inputs, all bit patterns, special values, all magnitudes, cancellations,
 /// spectra of one line, a rounding around 0 and 1, 1e-30 and 1e30; on 60 bands, one of 470 nm, 3, and 4096 of
-/// 0.1 nm; and, where the processor can, with numbers below the least normal one flushed to 0.
+/// 0.1 nm; and, where the processor can, with numbers below the smallest normal one flushed to 0.
 Result<std::vector<StressResult>> stress_operations(const StressSettings& settings);
 
-/// What is not an operation on lanes: films, averages over bands, weights, matrices, colour differences.
+/// Everything but operations on lanes: films, averages over bands, weights, matrices, colour differences.
 Result<std::vector<StressResult>> stress_others(const StressSettings& settings);
 
 }  // namespace spectile::measure

@@ -1,4 +1,4 @@
-// spectile bench: what this machine can do, and what each way of doing a job costs in time and in error.
+// spectile bench: what this machine can do, and what each method costs in time and in error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <spectile/bench/benchmark.hpp>
 #include <system_error>
 
 #include "src/cli/common.hpp"
@@ -46,8 +47,8 @@ void print_machine(const BenchmarkReport& r) {
 void print_operations(const BenchmarkReport& r) {
   for (const MachineLimit& l : r.limits) {
     fmt::print(
-        "\n{}: load {:.3g}, store {:.3g}, round the caches {:.3g}, copy {:.3g} GB/s; products and sums "
-        "{:.3g} G/s, fused {:.3g}, quotients {:.3g}\n",
+        "\n{}: load {:.3g}, store {:.3g}, non-temporal store {:.3g}, copy {:.3g} GB/s; multiply-add "
+        "{:.3g} G/s, fused {:.3g}, divide {:.3g}\n",
         place(l.isa, l.threads, l.level), l.load * 1e-9, l.store * 1e-9, l.stream * 1e-9, l.copy * 1e-9,
         l.multiply_add * 1e-9, l.fused_multiply_add * 1e-9, l.divide * 1e-9);
     for (const OperationSpeed& o : r.operations) {
@@ -60,27 +61,46 @@ void print_operations(const BenchmarkReport& r) {
   }
 }
 
-/// A job's name, without what its truth is.
-std::string name_of(const std::string& job) {
+void print_baseline(const BenchmarkReport& r) {
+  if (r.baseline.empty()) return;
+  fmt::print(
+      "\nAgainst the scalar array-of-structures baseline, one thread, {}\n  {:<50} {:>9} {:>11} {:>7} {:>10} "
+      "{:>7}\n",
+      r.machine.processor, "", "ns", "baseline ns", "ratio", "tuned ns", "ratio");
+  for (const BaselineSpeed& b : r.baseline) {
+    fmt::print("  {:<50} {:>9.3g} {:>11.3g} {:>7.3g}", b.name, b.nanoseconds, b.baseline_nanoseconds,
+               b.ratio);
+    if (b.fused_nanoseconds > 0) {
+      fmt::print(" {:>10.3g} {:>7.3g}", b.fused_nanoseconds, b.fused_ratio);
+    } else {
+      fmt::print(" {:>10} {:>7}", "", "");
+    }
+    fmt::print(" error {:.2g}, baseline {:.2g} {}; {:.0f} % of {}\n", b.error, b.baseline_error, b.error_unit,
+               100 * b.fraction, b.limit);
+  }
+}
+
+/// A job's name, without its reference.
+std::string short_name(const std::string& job) {
   return job.substr(0, job.find(';'));
 }
 
-void print_ways(const BenchmarkReport& r) {
+void print_methods(const BenchmarkReport& r) {
   std::string heading;
-  for (const WaySpeed& w : r.ways) {
-    const std::string now = fmt::format("{}: {}", name_of(w.job), w.light);
+  for (const MethodSpeed& w : r.methods) {
+    const std::string now = fmt::format("{}: {}", short_name(w.job), w.light);
     if (now != heading) {
       heading = now;
-      fmt::print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.spiky ? " (spiky)" : "", "", "ns",
-                 "mean", "95 %", "max");
+      fmt::print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.line_spectrum ? " (line spectrum)" : "",
+                 "", "ns", "mean", "95 %", "max");
     }
     fmt::print("{} {:<50} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f}\n", w.frontier ? "*" : " ", w.name,
                w.nanoseconds, w.error.mean, w.error.percentile95, w.error.maximum);
   }
-  if (!r.ways.empty()) fmt::print("\n* no other way is as fast and as accurate\n");
+  if (!r.methods.empty()) fmt::print("\n* no other method is as fast and as accurate\n");
   std::string last;
   for (const BenchmarkAdvice& a : r.advice) {
-    const std::string now = fmt::format("{}: {}", name_of(a.job), a.light);
+    const std::string now = fmt::format("{}: {}", short_name(a.job), a.light);
     if (now != last) fmt::print("\n{}\n", now);
     last = now;
     fmt::print("  {}\n", a.sentence);
@@ -125,36 +145,36 @@ int cannot_write(const std::string& path, int error) {
 }
 
 /// The name that a file has until it is whole.
-std::string part_of(const std::string& path) {
+std::string temporary_path(const std::string& path) {
   return path + ".part";
 }
 
-/// Whether a file can be made there, before minutes are spent on what goes into it.
+/// Checks that a file can be created there, before minutes of measurement.
 int check_writable(const std::string& path) {
   if (path.empty()) return kOk;
   if (std::filesystem::is_directory(path)) return cannot_write(path, EISDIR);
-  std::FILE* const file = std::fopen(part_of(path).c_str(), "wb");
+  std::FILE* const file = std::fopen(temporary_path(path).c_str(), "wb");
   if (file == nullptr) return cannot_write(path, errno);
   std::fclose(file);
-  std::remove(part_of(path).c_str());
+  std::remove(temporary_path(path).c_str());
   return kOk;
 }
 
 /// Whole or not at all.
 int write_file(const std::string& path, const std::string& text) {
   if (path.empty()) return kOk;
-  std::FILE* const file = std::fopen(part_of(path).c_str(), "wb");
+  std::FILE* const file = std::fopen(temporary_path(path).c_str(), "wb");
   if (file == nullptr) return cannot_write(path, errno);
   bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const int first = errno;
   good = std::fclose(file) == 0 && good;
-  if (good && std::rename(part_of(path).c_str(), path.c_str()) == 0) return kOk;
+  if (good && std::rename(temporary_path(path).c_str(), path.c_str()) == 0) return kOk;
   const int error = good || first == 0 ? errno : first;
-  std::remove(part_of(path).c_str());
+  std::remove(temporary_path(path).c_str());
   return cannot_write(path, error);
 }
 
-Result<BenchmarkOptions> options_of(const Arguments& a) {
+Result<BenchmarkOptions> make_options(const Arguments& a) {
   BenchmarkOptions out;
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
@@ -179,19 +199,19 @@ Result<BenchmarkOptions> options_of(const Arguments& a) {
   return out;
 }
 
-/// The plot of the job whose truth is spectral, under the first light with lines, or else the first.
-std::string plot_of(const BenchmarkReport& r) {
-  const WaySpeed* chosen = nullptr;
-  for (const WaySpeed& w : r.ways) {
-    if (w.job != r.ways.back().job) continue;
-    if (chosen == nullptr || (w.spiky && !chosen->spiky)) chosen = &w;
+/// The plot of the job whose reference is spectral, under the first light with lines, or else the first.
+std::string make_plot(const BenchmarkReport& r) {
+  const MethodSpeed* chosen = nullptr;
+  for (const MethodSpeed& w : r.methods) {
+    if (w.job != r.methods.back().job) continue;
+    if (chosen == nullptr || (w.line_spectrum && !chosen->line_spectrum)) chosen = &w;
   }
   return chosen == nullptr ? std::string() : benchmark_plot(r, chosen->job, chosen->light);
 }
 
 int run(const Arguments& a) {
   catch_signals();
-  auto options = options_of(a);
+  auto options = make_options(a);
   if (!options) return complain(options.error());
   for (const std::string& path : {a.report, a.plot}) {
     if (const int bad = check_writable(path); bad != kOk) return bad;
@@ -200,7 +220,7 @@ int run(const Arguments& a) {
   options->progress = nullptr;  // clears the bar
   if (!report) return complain(report.error());
   if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
-  if (const int bad = write_file(a.plot, plot_of(*report)); bad != kOk) return bad;
+  if (const int bad = write_file(a.plot, make_plot(*report)); bad != kOk) return bad;
   int beyond = 0;
   if (a.json) {
     fmt::print("{}\n", benchmark_to_json(*report));
@@ -208,7 +228,8 @@ int run(const Arguments& a) {
   } else {
     print_machine(*report);
     print_operations(*report);
-    print_ways(*report);
+    print_baseline(*report);
+    print_methods(*report);
     print_representations(*report);
     beyond = print_stress(*report);
     fmt::print("\n{:.0f} s\n", report->seconds);
@@ -226,13 +247,13 @@ void add_bench(CLI::App& app, int& exit) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Measures this machine: what it can do at most, how near each operation comes to that and how\n"
-      "wrong it is, what each way of doing a job costs in time and in error, and whether the numbers\n"
+      "wrong it is, what each method costs in time and in error, and whether the numbers\n"
       "hold over the whole range of float. Takes minutes; a machine busy with other work is said to be.\n"
       "Exit code 1 where a number is beyond its stated bound.");
   command->add_flag("--quick", a->quick,
-                    "half a minute: the fastest instruction set in memory, fewer ways and rounds");
+                    "half a minute: the fastest instruction set in memory, fewer methods and rounds");
   auto* stress = command->add_flag("--stress", a->stress, "the numbers' stress test in its long form too");
-  command->add_flag("--stress-only", a->stress_only, "nothing but that")->excludes(stress);
+  command->add_flag("--stress-only", a->stress_only, "run only the stress test")->excludes(stress);
   command->add_flag("--json", a->json, "print the whole report as JSON");
   command->add_option("--report", a->report, "write the report as one page of HTML, with its plots")
       ->type_name("OUT.html");
@@ -247,7 +268,7 @@ void add_bench(CLI::App& app, int& exit) {
   command->add_option("--isa", a->isas, "instruction sets to measure (all that run here)")
       ->type_name("NAME")
       ->delimiter(',');
-  command->add_option("--illuminant", a->lights, "lights for the ways (D65, A, FL11, HP1)")
+  command->add_option("--illuminant", a->lights, "lights for the methods (D65, A, FL11, HP1)")
       ->type_name("NAME")
       ->delimiter(',');
   command
@@ -255,9 +276,10 @@ void add_bench(CLI::App& app, int& exit) {
                    "files of measured reflectances that errors are over (the 24 of the ColorChecker)")
       ->type_name("FILE");
   command
-      ->add_option("--only", a->only,
-                   "only operations whose name contains this ('' for all), and no ways; stress only where it "
-                   "is asked for")
+      ->add_option(
+          "--only", a->only,
+          "only operations whose name contains this ('' for all), and no methods; stress only where it "
+          "is asked for")
       ->type_name("TEXT");
   command->add_flag("--cache-only", a->cache_only, "operations in the caches, not in memory");
   command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N")->check(CLI::NonNegativeNumber);

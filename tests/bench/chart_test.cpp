@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "bench/report/chart_labels.hpp"
-#include "bench/report/svg_chart.hpp"
+#include "bench/report/chart/chart_labels.hpp"
+#include "bench/report/chart/svg_chart.hpp"
 #include "tests/bench/report_support.hpp"
 
 namespace spectile::test {
@@ -42,7 +42,7 @@ struct Point {
   double x, y;
 };
 
-/// Where marks are, by what their title begins with.
+/// Positions of marks, by the beginning of their title.
 std::map<std::string, Point> marks_of(const std::string& svg) {
   std::map<std::string, Point> out;
   for (const std::string& mark : pieces(svg, "<g class=\"mark", "</title>")) {
@@ -72,7 +72,7 @@ std::map<double, double> ticks_of(const std::string& svg, bool horizontal) {
   return out;
 }
 
-/// Where two labelled ticks say that a value is.
+/// Position of a value according to two labelled ticks.
 double expected(const std::map<double, double>& ticks, double from, double to, double value) {
   const double part = (std::log10(value) - std::log10(from)) / (std::log10(to) - std::log10(from));
   return ticks.at(from) + part * (ticks.at(to) - ticks.at(from));
@@ -205,8 +205,9 @@ TEST(BenchmarkChart, PlotOfAJobStandsAlone) {
   EXPECT_THAT(svg, HasSubstr("role=\"img\""));
   EXPECT_THAT(svg, HasSubstr("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"));
   EXPECT_THAT(svg, HasSubstr("nanoseconds a pixel, one thread"));
-  EXPECT_EQ(marks_of(svg).size(), report.ways.size() / (std::size(kMadeUpJobs) * std::size(kMadeUpLights)));
-  // What the numbers stand for is said below.
+  EXPECT_EQ(marks_of(svg).size(),
+            report.methods.size() / (std::size(kMadeUpJobs) * std::size(kMadeUpLights)));
+  // The key of the numbers is below.
   const std::vector<std::string> numbers = pieces(svg, "<text class=\"number\"", "</text>");
   EXPECT_GT(numbers.size(), 3U);
   for (const std::string& number : numbers) {
@@ -216,7 +217,7 @@ TEST(BenchmarkChart, PlotOfAJobStandsAlone) {
     const std::size_t first = at + 9 + words.size();
     EXPECT_THAT(svg, HasSubstr(">" + svg.substr(first, svg.find(':', first) - first) + "</text>"));
   }
-  // The textbook is the heavy cross, in every chart.
+  // The AoS baseline is the heavy cross, in every chart.
   EXPECT_EQ(pieces(svg, "<g class=\"mark s0\"", ">").size(), 3U);
   EXPECT_EQ(benchmark_plot(report, kMadeUpJobs[0], "no such light"), "");
   EXPECT_EQ(benchmark_plot(report, "no such job", "FL11"), "");
@@ -233,7 +234,7 @@ TEST(BenchmarkChart, LabelsLieOverNoMarkAndNoOtherLabel) {
   for (const Box& box : taken) places.occupy(box);
   std::size_t placed = 0;
   for (const Point& m : marks) {
-    const auto label = places.place(m.x, m.y, 6, "12", report::LabelPlaces::Reach::kBeside);
+    const auto label = places.place(m.x, m.y, 6, "12", report::LabelPlaces::LabelDistance::kBeside);
     if (!label) continue;
     ++placed;
     const double width = report::text_width("12", 12);
@@ -248,7 +249,7 @@ TEST(BenchmarkChart, LabelsLieOverNoMarkAndNoOtherLabel) {
   }
   EXPECT_GT(placed, 25U);
   // A name that no place is wide enough for has none.
-  EXPECT_FALSE(places.place(150, 100, 6, std::string(80, 'm'), report::LabelPlaces::Reach::kClear));
+  EXPECT_FALSE(places.place(150, 100, 6, std::string(80, 'm'), report::LabelPlaces::LabelDistance::kClear));
 }
 
 }  // namespace

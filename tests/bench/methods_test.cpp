@@ -1,4 +1,4 @@
-// What the benchmark measures by: medians, frontiers, truths, judges; and what it refuses.
+// The benchmark's measures: medians, Pareto frontiers, references, evaluations; and its refusals.
 #include "bench/methods/methods.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace spectile::test {
 namespace {
 
-using measure::judged_by;
+using measure::error_against;
 using measure::kOutOfDomain;
 using measure::Timed;
 
@@ -54,8 +54,8 @@ TEST(Clock, RatiosAreTakenWithinRounds) {
 }
 
 TEST(Frontier, HoldsWhatNothingBeats) {
-  const auto way = [](const char* light, const char* name, double ns, double mean) {
-    WaySpeed w;
+  const auto method = [](const char* light, const char* name, double ns, double mean) {
+    MethodSpeed w;
     w.job = "job";
     w.light = light;
     w.name = name;
@@ -63,13 +63,14 @@ TEST(Frontier, HoldsWhatNothingBeats) {
     w.error.mean = mean;
     return w;
   };
-  std::vector<WaySpeed> ways = {way("A", "fast", 1, 2),      way("A", "exact", 10, 0.1),
-                                way("A", "beaten", 11, 0.2), way("A", "as slow", 10, 0.11),
-                                way("A", "same", 1, 2),      way("D65", "alone", 100, 5)};
-  measure::mark_frontier(ways);
+  std::vector<MethodSpeed> methods = {method("A", "fast", 1, 2),      method("A", "exact", 10, 0.1),
+                                      method("A", "beaten", 11, 0.2), method("A", "as slow", 10, 0.11),
+                                      method("A", "same", 1, 2),      method("D65", "alone", 100, 5)};
+  measure::mark_frontier(methods);
   const bool expected[] = {true, true, false, false, true, true};
-  for (std::size_t i = 0; i < ways.size(); ++i) EXPECT_EQ(ways[i].frontier, expected[i]) << ways[i].name;
-  const auto advice = measure::advice_on(ways);
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    EXPECT_EQ(methods[i].frontier, expected[i]) << methods[i].name;
+  const auto advice = measure::advice_on(methods);
   ASSERT_FALSE(advice.empty());
   for (const BenchmarkAdvice& a : advice) {
     EXPECT_EQ(a.sentence.find("beaten"), std::string::npos) << a.sentence;
@@ -78,35 +79,35 @@ TEST(Frontier, HoldsWhatNothingBeats) {
 }
 
 TEST(ReferenceColors, WhiteIsTheLightsAndLampsHaveLines) {
-  for (const auto& [name, spiky] :
+  for (const auto& [name, line_spectrum] :
        {std::pair{"D65", false}, {"A", false}, {"E", false}, {"FL2", true}, {"FL11", true}, {"HP1", true}}) {
-    const auto light = *measure::true_light(name);
-    EXPECT_EQ(light.spiky, spiky) << name;
+    const auto light = *measure::reference_light(name);
+    EXPECT_EQ(light.line_spectrum, line_spectrum) << name;
     EXPECT_NEAR(light.white[1], 1, 1e-12) << name;
     const auto chart = *measure::chart_reflectances();
     EXPECT_EQ(chart.size(), 24U);
-    const auto reflectances = *measure::true_reflectances(chart);
+    const auto reflectances = *measure::reference_reflectances(chart);
     for (const auto& r : reflectances) {
-      const auto xyz = measure::true_xyz(light, {&r});
+      const auto xyz = measure::reference_xyz(light, {&r});
       EXPECT_GT(xyz[1], 0.01);
       EXPECT_LT(xyz[1], 0.95);
     }
   }
   // D65's published white. Source: CIE 015:2018.
-  const auto d65 = *measure::true_light("D65");
+  const auto d65 = *measure::reference_light("D65");
   EXPECT_NEAR(d65.white[0], 0.95047, 2e-5);
   EXPECT_NEAR(d65.white[2], 1.08883, 5e-5);
 }
 
-TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndWhatNinetyFiveOfAHundredDoNotExceed) {
+TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndNinetyFiveOfAHundredDoNotExceed) {
   const measure::Xyz white = {1, 1, 1};
   measure::ErrorList list(white);
   std::vector<double> all;
   for (int i = 1; i <= 100; ++i) {
-    const measure::Xyz truth = {0.5, 0.5, 0.5};
+    const measure::Xyz reference = {0.5, 0.5, 0.5};
     const measure::Xyz found = {0.5, 0.5 + 0.001 * i, 0.5};
-    list.add(truth, found);
-    all.push_back(ciede2000(xyz_to_lab(truth, white), xyz_to_lab(found, white)));
+    list.add(reference, found);
+    all.push_back(ciede2000(xyz_to_lab(reference, white), xyz_to_lab(found, white)));
   }
   const ColorError e = list.summary();
   EXPECT_DOUBLE_EQ(e.maximum, all[99]);
@@ -114,10 +115,11 @@ TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndWhatNinetyFiveOfAHundredD
 }
 
 TEST(Evaluation, AllowsTheBoundAndNotMore) {
-  const auto judge = judged_by(
-      1, [](const double* in, double* truth, double* scale) { truth[0] = scale[0] = in[0]; }, 1, false, 2);
+  const auto evaluate_errors = error_against(
+      1, [](const double* in, double* reference, double* scale) { reference[0] = scale[0] = in[0]; }, 1,
+      false, 2);
   const double in = 1;
-  const auto error = [&](double out) { return judge(&in, &out, 0); };
+  const auto error = [&](double out) { return evaluate_errors(&in, &out, 0); };
   EXPECT_EQ(error(1), 0);
   EXPECT_NEAR(error(1 + 0x1p-24), 1, 1e-12);
   EXPECT_NEAR(error(1 - 0x1p-22), 4, 1e-12);
@@ -128,13 +130,15 @@ TEST(Evaluation, AllowsTheBoundAndNotMore) {
 TEST(Evaluation, KnowsOverflowAndWhatIsNotFinite) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  const auto value = [](const double* in, double* truth, double* scale) {
-    truth[0] = in[0];
+  const auto value = [](const double* in, double* reference, double* scale) {
+    reference[0] = in[0];
     scale[0] = std::abs(in[0]);
   };
-  const auto once = judged_by(1, value, 1, true, 1);
-  const auto sum = judged_by(1, value, 1, false, 1);
-  const auto at = [](const auto& judge, double in, double out) { return judge(&in, &out, 0); };
+  const auto once = error_against(1, value, 1, true, 1);
+  const auto sum = error_against(1, value, 1, false, 1);
+  const auto at = [](const auto& evaluate_errors, double in, double out) {
+    return evaluate_errors(&in, &out, 0);
+  };
   EXPECT_EQ(at(once, 1e39, kInfinity), 0);
   EXPECT_EQ(at(once, -1e39, kInfinity), kInfinity);
   EXPECT_EQ(at(once, 1e39, 3e38), kInfinity);
@@ -194,7 +198,7 @@ TEST(Benchmark, MeasuresOneOperationWithItsLimitAndItsError) {
       EXPECT_GT(rate, 1e6) << l.isa;
     }
   }
-  EXPECT_TRUE(report->ways.empty());
+  EXPECT_TRUE(report->methods.empty());
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ TEST(BenchmarkJson, HoldsEveryEntry) {
   EXPECT_EQ(json["limits"].size(), full().limits.size());
   EXPECT_EQ(json["operations"].size(), full().operations.size());
   EXPECT_EQ(json["scaling"].size(), full().scaling.size());
-  EXPECT_EQ(json["ways"].size(), full().ways.size());
+  EXPECT_EQ(json["baseline"].size(), full().baseline.size());
+  EXPECT_EQ(json["baseline"][0]["ratio"], full().baseline[0].ratio);
+  EXPECT_EQ(json["ways"].size(), full().methods.size());
   EXPECT_EQ(json["representations"].size(), full().representations.size());
   EXPECT_EQ(json["stress"].size(), full().stress.size());
   EXPECT_EQ(json["advice"].size(), full().advice.size());
@@ -38,8 +40,8 @@ TEST(BenchmarkJson, HoldsEveryEntry) {
 
 TEST(BenchmarkJson, ComesBackBitForBit) {
   const Json json = Json::parse(benchmark_to_json(full()));
-  for (std::size_t i = 0; i < full().ways.size(); ++i) {
-    const WaySpeed& w = full().ways[i];
+  for (std::size_t i = 0; i < full().methods.size(); ++i) {
+    const MethodSpeed& w = full().methods[i];
     const Json& j = json["ways"][i];
     EXPECT_EQ(j["job"], w.job);
     EXPECT_EQ(j["name"], w.name);

@@ -119,17 +119,17 @@ TEST(BenchmarkPage, LinksLeadSomewhere) {
   }
 }
 
-TEST(BenchmarkPage, HasEveryWayInATableAndInBothCharts) {
+TEST(BenchmarkPage, HasEveryMethodInATableAndInBothCharts) {
   const auto tables = parts(full_page(), "<table>", "</table>");
   for (const char* job : kMadeUpJobs) {
     for (const MadeUpLight& light : kMadeUpLights) {
       const std::string head = fmt::format(
-          "{}, {}: every way", std::string(job).substr(0, std::string(job).find(';')), light.name);
+          "{}, {}: every method", std::string(job).substr(0, std::string(job).find(';')), light.name);
       const auto table = std::find_if(tables.begin(), tables.end(), [&](const std::string& t) {
         return t.find(head) != std::string::npos;
       });
       ASSERT_NE(table, tables.end()) << head;
-      for (const WaySpeed& w : full().ways) {
+      for (const MethodSpeed& w : full().methods) {
         if (w.job != job || w.light != light.name) continue;
         const auto rows = parts(*table, "<tr", "</tr>");
         const std::string name = report::escaped(w.name);
@@ -143,19 +143,22 @@ TEST(BenchmarkPage, HasEveryWayInATableAndInBothCharts) {
         EXPECT_THAT(*row, HasSubstr("<td>" + report::number(w.nanoseconds) + "</td>"));
         EXPECT_THAT(*row, HasSubstr("<td>" + report::number(w.error.mean) + "</td>"));
         EXPECT_EQ(row->find("★ frontier") != std::string::npos, w.frontier) << w.name;
-        EXPECT_EQ(row->find(">textbook</span>") != std::string::npos, w.family == "textbook") << w.name;
+        EXPECT_EQ(row->find(">AoS baseline</span>") != std::string::npos, w.family == "AoS baseline")
+            << w.name;
       }
     }
   }
   // Each in the wide and in the narrow form.
-  EXPECT_EQ(count_of(full_page(), "class=\"mark "), 2 * (full().ways.size() + full().representations.size()));
-  EXPECT_EQ(count_of(full_page(), "<title>"), 1 + 2 * (full().ways.size() + full().representations.size()));
+  EXPECT_EQ(count_of(full_page(), "class=\"mark "),
+            2 * (full().methods.size() + full().representations.size()));
+  EXPECT_EQ(count_of(full_page(), "<title>"),
+            1 + 2 * (full().methods.size() + full().representations.size()));
 }
 
-TEST(BenchmarkPage, ListsTheFastestWaysFirst) {
+TEST(BenchmarkPage, ListsTheFastestMethodsFirst) {
   BenchmarkReport r;
   for (const double ns : {30.0, kNan, 0.2, 400.0, 5.0}) {
-    r.ways.push_back(
+    r.methods.push_back(
         {"job", "light", false, "family", fmt::format("at {}", ns), 0, ns, 0, 0, {1, 1, 1}, false});
   }
   const std::string page = benchmark_to_html(r);
@@ -187,7 +190,7 @@ TEST(BenchmarkPage, HasEveryOperationAtEachLevel) {
   }
 }
 
-TEST(BenchmarkPage, SetsAnOperationsShareAgainstTheLimitThatBindsIt) {
+TEST(BenchmarkPage, SetsAnOperationsShareAgainstItsLimit) {
   BenchmarkReport r;
   r.machine.isas = {"sse4.2", "avx2"};
   r.limits = {{"avx2", 1, MemoryLevel::kMemory, 1e9, 2e9, 3e9, 7.7e9, 5e9, 6e9, 0},

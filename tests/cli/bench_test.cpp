@@ -86,7 +86,7 @@ TEST(Bench, JsonHoldsLimitsAndTheOperationsAskedForAndThePageIsWhole) {
   }
   EXPECT_EQ(std::count(names.begin(), names.end(), "add"), 2);
   EXPECT_EQ(std::count(names.begin(), names.end(), "multiply_add"), 2);
-  // What is asked of some operations is asked of them alone.
+  // A choice of operations leaves out the rest.
   EXPECT_TRUE(report.at("ways").empty());
   EXPECT_TRUE(report.at("stress").empty());
   EXPECT_FALSE(report.at("machine").at("processor").get<std::string>().empty());
@@ -110,7 +110,7 @@ TEST(Bench, StressAloneHoldsEveryBound) {
   for (const char* name : {"add", "multiply_add", "exp", "pow", "project"}) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  ") + name));
   }
-  EXPECT_THAT(outcome.out, Not(HasSubstr("GB/s")));  // nothing but that
+  EXPECT_THAT(outcome.out, Not(HasSubstr("GB/s")));  // run only the stress test
 }
 
 TEST(Bench, StressOfSomeOperationsIsOfThemAlone) {

@@ -52,8 +52,8 @@ TEST(KernelState, NoWideRegistersAreLeftInUse) {
   constexpr std::size_t kBlocks = 4;
   for (const kernels::KernelTable* table : dispatch::available()) {
     for (const measure::Operation& op : *operations) {
-      auto memory = *FloatBuffer::create(measure::LaneMemory::least_bytes(op, kBlocks) / sizeof(float) + 1);
-      measure::LaneMemory lanes(op, memory.data(), measure::LaneMemory::least_bytes(op, kBlocks));
+      auto memory = *FloatBuffer::create(measure::LaneMemory::min_bytes(op, kBlocks) / sizeof(float) + 1);
+      measure::LaneMemory lanes(op, memory.data(), measure::LaneMemory::min_bytes(op, kBlocks));
       measure::Random random(1);
       std::vector<float> values(op.in.values());
       for (std::size_t lane = 0; lane < lanes.lanes(); ++lane) {

@@ -1,4 +1,4 @@
-// Benchmark: what this machine can do, how near each operation comes to it, what each way of doing a job
+// Benchmark: what this machine can do, how near each operation comes to it, what each method
 // costs in time and in error, and how far the numbers hold.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spectile {
 
-/// What was measured where. Units: bytes.
+/// Machine and build of a run. Units: bytes.
 struct BenchmarkMachine {
   std::string processor;                 ///< as the operating system names it, or its architecture
   std::string system;                    ///< operating system and its release
@@ -26,13 +26,13 @@ struct BenchmarkMachine {
   std::vector<std::string> isas;   ///< that run here, the slowest first
 };
 
-/// Where an operation's numbers are.
+/// Place of an operation's operands.
 enum class MemoryLevel {
   kCache,   ///< second-level cache
   kMemory,  ///< DRAM
 };
 
-/// What the machine can do with vectors of one instruction set and nothing else to do.
+/// Peak rates of the machine with vectors of one instruction set.
 /// Units: bytes and operations a second; medians.
 struct MachineLimit {
   std::string isa;
@@ -40,11 +40,11 @@ struct MachineLimit {
   MemoryLevel level = MemoryLevel::kCache;
   double load = 0;                ///< bytes read
   double store = 0;               ///< bytes written by ordinary stores
-  double stream = 0;              ///< bytes written round the caches
+  double stream = 0;              ///< bytes written by non-temporal stores
   double copy = 0;                ///< bytes read and written, together
-  double multiply_add = 0;        ///< float products and sums, rounded one by one; each counts
+  double multiply_add = 0;        ///< multiply, then add, each rounded; each counts as one
   double fused_multiply_add = 0;  ///< fused ones; each counts once. Kernels' strict formulas have few
-  double divide = 0;              ///< float quotients, each counts
+  double divide = 0;              ///< divisions
   double spread = 0;  ///< largest of these: half the range of the middle half of the runs, over the median
 };
 
@@ -55,44 +55,64 @@ struct OperationSpeed {
   std::string isa;
   int threads = 1;
   MemoryLevel level = MemoryLevel::kCache;
-  std::string item = "lane";  ///< what is counted: "sample", "lane", "colour"
+  std::string item = "lane";  ///< that is counted: "sample", "lane", "colour"
   double items_per_second = 0;
   double bytes_per_second = 0;  ///< that it must read and write
   double spread = 0;
-  std::string limit;       ///< that binds it: "load", "store", "stream", "copy", "multiply-add", or in words
-  double fraction = 0;     ///< of that limit
-  double error = 0;        ///< against double, in units of `error_unit`
-  double bound = 0;        ///< stated for it, in the same units
+  std::string limit;    ///< limiting resource: "load", "store", "stream", "copy", "multiply-add", or in words
+  double fraction = 0;  ///< of that limit
+  double error = 0;     ///< against double, in units of `error_unit`
+  double bound = 0;     ///< stated for it, in the same units
   std::string error_unit;  ///< "u": 2^-24 of the sum of magnitudes, ...
-  std::string note;        ///< what binds it, where its limit is not reached
+  std::string note;        ///< bottleneck where the limit is not reached
 };
 
-/// Colour differences from the truth. Units: CIEDE2000.
+/// An operation of the engine beside the scalar array-of-structures (AoS) baseline, on one thread: spectra
+/// and colours in the second-level cache, films in memory. Units: nanoseconds an item.
+struct BaselineSpeed {
+  std::string group;
+  std::string name;
+  std::string item = "lane";
+  double nanoseconds = 0;           ///< of the engine
+  double baseline_nanoseconds = 0;  ///< of the baseline
+  double fused_nanoseconds = 0;  ///< of the baseline tuned by hand (its loops fused); 0 where there is none
+  double ratio = 0;              ///< of the baseline's time to the engine's, median of the rounds' ratios
+  double fused_ratio = 0;
+  double spread = 0;
+  std::string limit;    ///< the engine's limiting resource, and
+  double fraction = 0;  ///< the share of its limit that the engine reaches
+  double error = 0;     ///< of the engine, in units of `error_unit`
+  double baseline_error = 0;
+  std::string error_unit;
+};
+
+/// Colour differences from the reference. Units: CIEDE2000.
 struct ColorError {
   double mean = 0;
   double percentile95 = 0;
   double maximum = 0;
 };
 
-/// One way of doing a job under a light.
-struct WaySpeed {
+/// One method of doing a job under a light.
+struct MethodSpeed {
   std::string job;  ///< "RGB texture, under a light, to a colour", ...
   std::string light;
-  bool spiky = false;  ///< the light has lines
-  std::string family;  ///< of ways that are drawn alike: "textbook", "smits-exact", "planned bands", ...
+  bool line_spectrum = false;  ///< the light has lines
+  std::string
+      family;  ///< of methods that are drawn alike: "AoS baseline", "smits-exact", "planned bands", ...
   std::string name;
   int bands = 0;           ///< 0 where there are none
   double nanoseconds = 0;  ///< a pixel or sample, one thread
   double spread = 0;
   std::uint64_t bytes = 0;  ///< that the pixel takes in memory or in a file, 0 where nothing is stored
   ColorError error;
-  bool frontier = false;  ///< no other way is as fast and as accurate, by mean error
+  bool frontier = false;  ///< no other method is as fast and as accurate, by mean error
 };
 
 /// One representation of light and materials in a scene of some bounces.
 struct RepresentationSpeed {
   std::string light;
-  bool spiky = false;
+  bool line_spectrum = false;
   std::string name;
   int coefficients = 0;  ///< a lane
   int bounces = 1;
@@ -101,10 +121,10 @@ struct RepresentationSpeed {
   ColorError error;
 };
 
-/// How far an operation's numbers hold.
+/// Result of an operation's stress test.
 struct StressResult {
   std::string operation;
-  std::string inputs;  ///< what was tried, in words
+  std::string inputs;  ///< description of the inputs
   std::string unit;    ///< of bound and worst: "u", "ULP", "CIEDE2000", "relative"
   double bound = 0;    ///< 0: exactly the documented result
   double worst = 0;    ///< found
@@ -122,7 +142,7 @@ struct ThreadScaling {
   double limit = 1;  ///< that of the machine's own limit
 };
 
-/// What to take for an error, or a time, that is given.
+/// Recommended method for a given error.
 struct BenchmarkAdvice {
   std::string job;
   std::string light;
@@ -137,7 +157,8 @@ struct BenchmarkReport {
   std::vector<MachineLimit> limits;
   std::vector<OperationSpeed> operations;
   std::vector<ThreadScaling> scaling;
-  std::vector<WaySpeed> ways;
+  std::vector<BaselineSpeed> baseline;  ///< of the fastest instruction set
+  std::vector<MethodSpeed> methods;
   std::vector<RepresentationSpeed> representations;
   std::vector<StressResult> stress;
   std::vector<BenchmarkAdvice> advice;
@@ -146,11 +167,11 @@ struct BenchmarkReport {
 struct BenchmarkOptions {
   bool quick = false;                  ///< half a minute rather than minutes
   bool memory = true;                  ///< also of what lies in memory, not in the caches
-  bool speed = true;                   ///< limits, operations, ways, representations
+  bool speed = true;                   ///< limits, operations, methods, representations
   bool stress = false;                 ///< also the long form of the numbers' stress test
   std::vector<int> threads;            ///< 1, 2, 4 ... up to the cores where empty
   std::vector<std::string> isas;       ///< every one that runs here where empty
-  std::vector<std::string> lights;     ///< by name; four smooth and spiky ones where empty
+  std::vector<std::string> lights;     ///< by name; four smooth and line spectra where empty
   std::vector<std::string> only;       ///< operations whose name contains one of these; all where empty
   std::vector<Spectrum> reflectances;  ///< errors are over these; the 24 of the ColorChecker where empty
   std::uint64_t seed = 1;              ///< of the inputs
@@ -166,8 +187,8 @@ Result<BenchmarkReport> run_benchmark(const BenchmarkOptions& options = {});
 std::string benchmark_to_json(const BenchmarkReport& report);
 /// The report as one page of HTML that needs nothing else: no network, no script.
 std::string benchmark_to_html(const BenchmarkReport& report);
-/// Error against time of one job under one light, as SVG: every way, the frontier as a line. Empty where the
-/// report has none of them.
+/// Error against time of one job under one light, as SVG: every method, the frontier as a line. Empty where
+/// the report has none of them.
 std::string benchmark_plot(const BenchmarkReport& report, const std::string& job, const std::string& light);
 
 }  // namespace spectile

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::io {
 
 ColorJob::ColorJob(const std::vector<PlaneSpec>& planes, std::size_t first_passing, ColorTarget target,

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/base/errors.hpp"
 #include "src/io/convert/sources/plan_attribute.hpp"
 #include "src/io/convert/sources/spectral_layout.hpp"
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::io {
 namespace {
 

@@ -7,9 +7,9 @@ namespace spectile::report {
 
 /// "#0072b2": of the palette of Okabe and Ito, "Color Universal Design", 2008, which most eyes can tell
 /// apart.
-std::string color_of(int style);
+std::string style_color(int style);
 
 /// Shape round (0, 0), its outline included; `radius`: about that of a circle of the same area.
-std::string shape_of(int style, double radius);
+std::string style_shape(int style, double radius);
 
 }  // namespace spectile::report

@@ -1,5 +1,5 @@
 // A logarithmic axis of a chart: where a value lies, and its ticks.
-#include "bench/report/log_axis.hpp"
+#include "bench/report/chart/log_axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ int step_below(double log) {
 }
 
 /// Written from the exponent, as the value itself may be too large or too small for a double.
-std::string label_of(int mantissa, int exponent) {
+std::string tick_label(int mantissa, int exponent) {
   if (exponent >= -4 && exponent <= 5) return number(mantissa * std::pow(10.0, exponent), Zeros::kDrop);
   return (mantissa == 1 ? "" : std::to_string(mantissa) + "×") + power_of_ten(exponent);
 }
@@ -52,7 +52,7 @@ LogAxis::LogAxis(double lowest, double highest, double from, double to) : from_(
       if (log < low_ - slack || log > high_ + slack) continue;
       if (m > 1 && decades > kSomeDecades) continue;
       const bool has_label = m == 1 ? e % labelled == 0 : decades <= kFewDecades && (m == 2 || m == 5);
-      ticks_.push_back({position(log), has_label ? label_of(m, e) : "", m == 1});
+      ticks_.push_back({position(log), has_label ? tick_label(m, e) : "", m == 1});
     }
   }
 }

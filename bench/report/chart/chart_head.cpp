@@ -1,11 +1,11 @@
-// What stands above a chart's plot: its title, broken into lines, and the legend in rows.
-#include "bench/report/chart_head.hpp"
+// The head of a chart: its title, broken into lines, and the legend in rows.
+#include "bench/report/chart/chart_head.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "bench/report/chart_labels.hpp"
+#include "bench/report/chart/chart_labels.hpp"
 #include "bench/report/text.hpp"
 
 namespace spectile::report {

@@ -1,4 +1,4 @@
-// What stands above a chart's plot: its title, broken into lines, and the legend in rows.
+// The head of a chart: its title, broken into lines, and the legend in rows.
 #pragma once
 
 #include <string>

@@ -20,10 +20,10 @@ struct Label {
   double leader_x = 0, leader_y = 0;
 };
 
-/// Where text is so far, and where it may go.
+/// Occupied and free places for text.
 class LabelPlaces {
  public:
-  enum class Reach {
+  enum class LabelDistance {
     kBeside,  ///< at the mark, where need be over what is to be avoided
     kClear,   ///< at the mark or, with a line to it, a little away; over nothing
   };
@@ -35,7 +35,8 @@ class LabelPlaces {
   void avoid(const Box& box) { avoided_.push_back(box); }
 
   /// A place for text by a mark. Nothing where there is none.
-  std::optional<Label> place(double x, double y, double radius, const std::string& text, Reach reach);
+  std::optional<Label> place(double x, double y, double radius, const std::string& text,
+                             LabelDistance distance);
 
  private:
   Box inside_;

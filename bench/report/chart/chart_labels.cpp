@@ -1,5 +1,5 @@
 // Places for the labels of a chart's marks: beside them, over nothing.
-#include "bench/report/chart_labels.hpp"
+#include "bench/report/chart/chart_labels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,9 @@ constexpr double kGap = 3;
 constexpr int kDirections = 16;
 constexpr double kRings[] = {0, 14};  // beyond the mark, in pixels
 
-bool hits(const Box& box, const std::vector<Box>& others) {
-  return std::any_of(others.begin(), others.end(), [&](const Box& other) { return overlap(box, other); });
+bool hits(const Box& box, const std::vector<Box>& other_cores) {
+  return std::any_of(other_cores.begin(), other_cores.end(),
+                     [&](const Box& other) { return overlap(box, other); });
 }
 
 struct Candidate {
@@ -55,13 +56,13 @@ bool overlap(const Box& a, const Box& b) {
 }
 
 double text_width(const std::string& text, double font_size) {
-  return kWidthOfLetter * font_size * static_cast<double>(length_of(text));
+  return kWidthOfLetter * font_size * static_cast<double>(display_width(text));
 }
 
 std::optional<Label> LabelPlaces::place(double x, double y, double radius, const std::string& text,
-                                        Reach reach_of_text) {
+                                        LabelDistance allowed_distance) {
   const double width = text_width(text, font_size_);
-  const bool clear = reach_of_text == Reach::kClear;
+  const bool clear = allowed_distance == LabelDistance::kClear;
   std::optional<Candidate> second_best;  // over a line
   for (const double ring : kRings) {
     if (ring > 0 && !clear) break;
@@ -71,16 +72,16 @@ std::optional<Label> LabelPlaces::place(double x, double y, double radius, const
       const double angle = 2 * std::numbers::pi * step / kDirections;
       const double dx = std::cos(angle);
       const double dy = -std::sin(angle);
-      const double reach = radius + kGap + ring;
-      Candidate c = candidate(x + reach * dx, y + reach * dy, dx, dy, width, font_size_);
+      const double distance = radius + kGap + ring;
+      Candidate c = candidate(x + distance * dx, y + distance * dy, dx, dy, width, font_size_);
       if (c.box.left < inside_.left || c.box.right > inside_.right || c.box.top < inside_.top ||
           c.box.bottom > inside_.bottom || hits(c.box, taken_)) {
         continue;
       }
       c.label.text = text;
       c.label.leader = ring > 0;
-      c.label.leader_x = x + (reach - kGap / 2) * dx;
-      c.label.leader_y = y + (reach - kGap / 2) * dy;
+      c.label.leader_x = x + (distance - kGap / 2) * dx;
+      c.label.leader_y = y + (distance - kGap / 2) * dy;
       if (!hits(c.box, avoided_)) {
         taken_.push_back(c.box);
         return c.label;

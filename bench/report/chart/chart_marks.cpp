@@ -1,5 +1,5 @@
 // The marks of charts: a colour and a shape for each style, so that neither alone tells series apart.
-#include "bench/report/chart_marks.hpp"
+#include "bench/report/chart/chart_marks.hpp"
 
 #include <fmt/format.h>
 
@@ -30,12 +30,12 @@ std::string polygon(int corners, double radius, double turn, double inner = 1) {
 
 }  // namespace
 
-std::string color_of(int style) {
+std::string style_color(int style) {
   if (style <= 0) return kBlack;
   return kColors[static_cast<std::size_t>(style - 1) % kColors.size()];
 }
 
-std::string shape_of(int style, double radius) {
+std::string style_shape(int style, double radius) {
   if (style <= 0) {
     const double r = radius;
     return fmt::format(

@@ -1,6 +1,6 @@
 // A chart with two logarithmic axes as SVG: marks of several series, a frontier, a legend, labels beside
 // marks.
-#include "bench/report/svg_chart.hpp"
+#include "bench/report/chart/svg_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "bench/report/chart_head.hpp"
-#include "bench/report/chart_labels.hpp"
-#include "bench/report/chart_marks.hpp"
-#include "bench/report/log_axis.hpp"
+#include "bench/report/chart/chart_head.hpp"
+#include "bench/report/chart/chart_labels.hpp"
+#include "bench/report/chart/chart_marks.hpp"
+#include "bench/report/chart/log_axis.hpp"
 
 namespace spectile::report {
 namespace {
@@ -29,7 +29,7 @@ struct Format {
 };
 
 /// Widths are those of the view box: on the screen a pixel of the narrow form is about a pixel at 400.
-Format format_of(ChartForm form) {
+Format chart_format(ChartForm form) {
   if (form == ChartForm::kNarrow) return {400, 13.5, 330, 50, 5.2};
   return {960, 15, 430, 70, 6};
 }
@@ -48,7 +48,7 @@ bool drawable(const ChartMark& mark) {
 class Drawing {
  public:
   Drawing(const Chart& chart, ChartForm form)
-      : chart_(chart), form_(form), f_(format_of(form)), line_height_(1.45 * f_.font) {}
+      : chart_(chart), form_(form), f_(chart_format(form)), line_height_(1.45 * f_.font) {}
 
   std::string svg();
 
@@ -63,7 +63,7 @@ class Drawing {
   void labels();
   void foot(std::vector<const Placed*> numbered);
   void marks();
-  double y_of(double value) const { return value > 0 ? y_axis_->at(value) : zero_y_; }
+  double vertical(double value) const { return value > 0 ? y_axis_->at(value) : zero_y_; }
   void text(double x, double y, const char* anchor, const std::string& words, const char* more = "");
 
   const Chart& chart_;
@@ -84,7 +84,7 @@ void Drawing::text(double x, double y, const char* anchor, const std::string& wo
                        escaped(words));
 }
 
-/// What there is to show; false for nothing.
+/// Places the marks; false if there are none.
 bool Drawing::range() {
   bool any = false;
   bool any_above = false;
@@ -113,16 +113,16 @@ void Drawing::add(const Block& block) {
   height_ += block.height;
 }
 
-/// What stands above the plot, where no mark can be.
+/// Title and legend, above the plot.
 void Drawing::head() {
   height_ = 6;
   if (form_ == ChartForm::kAlone) add(title_block(chart_.title, f_.width, 1.15 * f_.font));
   std::vector<LegendEntry> entries;
   for (const ChartSeries& series : chart_.series) {
     if (std::none_of(series.marks.begin(), series.marks.end(), drawable)) continue;
-    entries.push_back(
-        {series.name, fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"0.8\">{}</g>",
-                                  color_of(series.style), kOutline, shape_of(series.style, f_.radius))});
+    entries.push_back({series.name, fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"0.8\">{}</g>",
+                                                style_color(series.style), kOutline,
+                                                style_shape(series.style, f_.radius))});
   }
   if (!chart_.frontier.empty()) {
     entries.push_back(
@@ -174,12 +174,12 @@ void Drawing::place_marks() {
     for (const ChartMark& mark : series.marks) {
       if (!drawable(mark)) continue;
       const double radius = series.style == 0 ? 1.1 * f_.radius : f_.radius;
-      placed_.push_back({&mark, series.style, x_axis_->at(mark.x), y_of(mark.y), radius});
+      placed_.push_back({&mark, series.style, x_axis_->at(mark.x), vertical(mark.y), radius});
     }
   }
 }
 
-/// What can be had in a given time: a staircase, as nothing is known of the ways between two marks.
+/// The Pareto frontier: a staircase, as nothing is known between two marks.
 void Drawing::frontier() {
   if (chart_.frontier.empty()) return;
   std::vector<std::pair<double, double>> corners;
@@ -208,12 +208,12 @@ void Drawing::series_lines() {
     if (!series.line) continue;
     std::string points;
     for (const ChartMark& mark : series.marks) {
-      if (drawable(mark)) points += fmt::format(" {:.2f},{:.2f}", x_axis_->at(mark.x), y_of(mark.y));
+      if (drawable(mark)) points += fmt::format(" {:.2f},{:.2f}", x_axis_->at(mark.x), vertical(mark.y));
     }
     if (points.empty()) continue;
     body_ += fmt::format(
         "<polyline class=\"s{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" points=\"{}\"/>\n",
-        series.style, color_of(series.style), points.substr(1));
+        series.style, style_color(series.style), points.substr(1));
   }
 }
 
@@ -247,7 +247,7 @@ void Drawing::labels() {
       const bool named = !p.mark->label.empty() && (p.mark->frontier || p.style == 0);
       if (p.mark->frontier != frontier) continue;
       const auto label =
-          named ? places.place(p.x, p.y, kReach * p.radius, p.mark->label, LabelPlaces::Reach::kClear)
+          named ? places.place(p.x, p.y, kReach * p.radius, p.mark->label, LabelPlaces::LabelDistance::kClear)
                 : std::nullopt;
       if (label) {
         write(p, *label);
@@ -259,7 +259,7 @@ void Drawing::labels() {
   for (const Placed* p : unnamed) {
     if (p->mark->number.empty()) continue;
     const auto label =
-        places.place(p->x, p->y, kReach * p->radius, p->mark->number, LabelPlaces::Reach::kBeside);
+        places.place(p->x, p->y, kReach * p->radius, p->mark->number, LabelPlaces::LabelDistance::kBeside);
     if (!label) continue;
     write(*p, *label);
     numbered.push_back(p);
@@ -273,7 +273,7 @@ void Drawing::labels() {
       words);
 }
 
-/// What the numbers stand for, where there is no table to say it.
+/// Key of the numbers, where there is no table.
 void Drawing::foot(std::vector<const Placed*> numbered) {
   std::stable_sort(numbered.begin(), numbered.end(),
                    [](const Placed* a, const Placed* b) { return a->x < b->x; });
@@ -294,8 +294,8 @@ void Drawing::marks() {
     body_ += fmt::format(
         "<g class=\"mark s{}\" transform=\"translate({:.2f} {:.2f})\" fill=\"{}\" stroke=\"{}\" "
         "stroke-width=\"{}\"><title>{}</title>{}</g>\n",
-        p.style, p.x, p.y, color_of(p.style), kOutline, p.mark->frontier ? "2" : "0.8",
-        escaped(p.mark->title), shape_of(p.style, p.radius));
+        p.style, p.x, p.y, style_color(p.style), kOutline, p.mark->frontier ? "2" : "0.8",
+        escaped(p.mark->title), style_shape(p.style, p.radius));
   }
 }
 
@@ -330,7 +330,7 @@ Html mark_in_text(int style) {
   return {fmt::format(
       "<svg class=\"key\" viewBox=\"-9 -9 18 18\" aria-hidden=\"true\"><g fill=\"{}\" stroke=\"{}\" "
       "stroke-width=\"0.8\">{}</g></svg>",
-      color_of(style), kOutline, shape_of(style, 5))};
+      style_color(style), kOutline, style_shape(style, 5))};
 }
 
 }  // namespace spectile::report
