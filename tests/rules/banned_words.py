@@ -16,6 +16,10 @@ TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<raw>R"(?P<mark>\w*)\(.*
                    r"|(?P<char>(?<![0-9a-zA-Z])'(?:\\.|[^'\\\n])+')", re.DOTALL)
 
 
+# A test's name is a sentence: prose.
+TEST_NAME = re.compile(r"\b(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\(\s*\w+,\s*(\w+)")
+
+
 class Entry:
     def __init__(self, line):
         fields = [field.strip() for field in line.split(" | ")]
@@ -77,13 +81,16 @@ def split(path, text):
         names += [text[end:token.start()], blank(token.group())]
         prose += [blank(text[end:token.start()]), token.group()]
         end = token.end()
-    includes = re.findall(r'^\s*#\s*include\s*".*"$', text, re.MULTILINE)
     names.append(text[end:])
     prose.append(blank(text[end:]))
-    prose = "".join(prose)
+    names, prose = "".join(names), "".join(prose)
+    for test in TEST_NAME.finditer(names):
+        prose = prose[:test.start(1)] + test[1] + prose[test.end(1):]
+    names = TEST_NAME.sub(lambda test: blank(test.group()), names)
+    includes = re.findall(r'^\s*#\s*include\s*".*"$', text, re.MULTILINE)
     for include in includes:
         prose = prose.replace(include[include.index('"'):], "", 1)
-    return {"names": "".join(names), "prose": prose}
+    return {"names": names, "prose": prose}
 
 
 def load(path=os.path.join(os.path.dirname(os.path.abspath(__file__)), "banned_words.txt")):
