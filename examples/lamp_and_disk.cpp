@@ -61,7 +61,8 @@ Result<void> show_cards(const Spectrum& radiance, SolidAngle lamp) {
   }
   if (auto done = upsample_srgb(*upsampler, rgb->view(), cards->span()); !done) return done;
 
-  // What leaves a matt card: reflectance times irradiance over pi. The irradiance is the same for all.
+  // Radiance that leaves a matt card: reflectance times irradiance over pi. The irradiance is the same for
+  // all.
   std::vector<float> irradiance = radiance.average_over(*bands);
   for (float& sample : irradiance) sample *= static_cast<float>(lamp.value() / std::numbers::pi);
   const auto light = SampledSpectra::broadcast(*bands, kCards.size(), irradiance);

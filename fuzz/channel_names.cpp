@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const double nm = channel->wavelength_nm;
   fuzz::require(std::isfinite(nm) && nm > 0, "a wavelength is positive and finite", fmt::format("{}", nm));
   if (channel->kind == io::SpectralKind::kPolarised) return 0;
-  // Names hold six decimals: beyond them, and where they would be zeros only, nothing is promised.
+  // Names hold six decimals: beyond them, and where they would be zeros only, nothing is guaranteed.
   if (nm < 1e-3 || nm > 1e9) return 0;
   const std::string written = io::spectral_channel_name(channel->kind, nm);
   const auto again = io::parse_spectral_channel(written);

@@ -43,7 +43,7 @@ void choose(fuzz::Choices& choices, MethodOptions& options) {
   options.negative = static_cast<Negative>(choices.below(3));
 }
 
-/// What holds of every conversion.
+/// Invariants of every conversion.
 void check(const Result<ImageReport>& report, const fuzz::CaseFolder& folder, const std::string& settings) {
   const bool done = fuzz::is_value(report);
   if (done) {

@@ -7,7 +7,7 @@
 
 namespace spectile::fuzz {
 
-/// Whether every window in the bytes, and so every part's image, is of at most `most` pixels. Windows that
+/// True if every window in the bytes, and so every part's image, is of at most `most` pixels. Windows that
 /// make no sense count as small: they are refused soon enough.
 inline bool is_small_image(Bytes bytes, std::int64_t most = 1 << 14) {
   constexpr std::string_view kBox("Window\0box2i\0\x10\0\0\0", 17);

@@ -68,7 +68,7 @@ Imf::Header header_of(Picture& picture, Imf::PixelType type, Imf::Compression co
 
 void scanlines(const std::string& path, Picture picture, const Imf::Header& header) {
   Picture as_written = std::move(picture);
-  // Channels of whole numbers are written from whole numbers.
+  // Integer channels are written from integers.
   std::vector<std::vector<std::uint32_t>> whole;
   Imf::FrameBuffer frame = as_written.frame(header.dataWindow().min);
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {

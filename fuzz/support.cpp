@@ -1,4 +1,5 @@
-// What the fuzz targets share: laws, whose breach ends the process, and a file and a folder for each case.
+// Shared by the fuzz targets: invariants, whose breach ends the process, and a file and a folder for each
+// case.
 #include "fuzz/support.hpp"
 
 #include <fmt/format.h>

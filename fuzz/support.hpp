@@ -1,4 +1,5 @@
-// What the fuzz targets share: laws, whose breach ends the process, and a file and a folder for each case.
+// Shared by the fuzz targets: invariants, whose breach ends the process, and a file and a folder for each
+// case.
 //
 // A target is a file with its own LLVMFuzzerTestOneInput(): libFuzzer calls it, and in the ordinary build
 // replay.cpp does.
@@ -31,7 +32,7 @@ inline void require(bool holds, const char* law, const std::string& detail = {})
 /// An error is one sentence without its full stop, however long the text is that it is about.
 void require_sentence(const Error& error);
 
-/// Whether a result is a value; where it is none, its error must be a sentence.
+/// True if a result is a value; where it is none, its error must be a sentence.
 template <class T>
 bool is_value(const Result<T>& result) {
   if (!result) require_sentence(result.error());

@@ -301,7 +301,7 @@ TEST(BenchmarkPage, WritesNoNumberThatIsNone) {
       EXPECT_TRUE(word != "nan" && word != "inf" && word != "infinity") << word;
       word.clear();
     }
-    // What has numbers is drawn, what has none is in the tables alone.
+    // Entries with numbers are drawn, others are in the tables alone.
     EXPECT_EQ(count_of(page, "class=\"mark "), 4U);
   }
 }

@@ -1,4 +1,4 @@
-// What the tool prints and writes when all goes well.
+// Output of the tool when all goes well: text, JSON and files.
 #include <OpenEXR/ImfIntAttribute.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -250,13 +250,13 @@ TEST_F(Outputs, SameBytesWhateverRunsThem) {
                                            "--compression", compression};
     ASSERT_EQ(run_tool(down).exit, 0);
     const std::string expected_back = test::file_bytes(folder_ / "back.exr");
-    int way = 0;
+    int run = 0;
     for (const std::string& isa : available_isas()) {
       const std::vector<std::string> execution = {
           "--isa",     isa,
-          "--threads", way % 2 == 0 ? "1" : "3",
-          "--lanes",   way % 3 == 0 ? "64" : way % 3 == 1 ? "100" : "65536"};
-      ++way;
+          "--threads", run % 2 == 0 ? "1" : "3",
+          "--lanes",   run % 3 == 0 ? "64" : run % 3 == 1 ? "100" : "65536"};
+      ++run;
       for (const auto& [arguments, bytes] : {std::pair{up, expected}, {down, expected_back}}) {
         // Into another file, so that the spectral one stays the input.
         std::vector<std::string> all = arguments;

@@ -32,7 +32,7 @@ struct Outcome {
   std::string out;
   std::string err;
 
-  /// Whether stderr holds exactly one line of the tool.
+  /// True if stderr holds exactly one line of the tool.
   bool one_line() const {
     return err.starts_with("spectile: ") && std::count(err.begin(), err.end(), '\n') == 1 &&
            err.back() == '\n';

@@ -24,7 +24,7 @@ class TilesTool : public testing::Test {
     test::write_scanlines(in_, picture);
   }
 
-  /// What the tool made, as OpenEXR sees it.
+  /// The tool's output as OpenEXR reads it.
   void expect_tiles(const std::vector<std::string>& words, unsigned width, unsigned height,
                     int levels) const {
     std::vector<std::string> all = words;

@@ -1,4 +1,4 @@
-// What is wrong with a command line or a file is said in one line, with the exit code of its kind.
+// Errors in a command line or a file are one line, with the exit code of its kind.
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <OpenEXR/ImfPartType.h>

@@ -29,7 +29,7 @@ double size_of(const Projector& projector, const SampledSpectra& spectra, std::s
   return size;
 }
 
-/// What a projection of so many bands is off by at most, of the sum of magnitudes.
+/// Bound of the error of a projection of so many bands, of the sum of magnitudes.
 double projection_bound(const Bands& bands) {
   return (static_cast<double>(bands.count()) / 8 + 11) * kU * kHigherOrders;
 }
@@ -41,7 +41,7 @@ constexpr double kMixture = 4 * kU * kHigherOrders;
 RC_GTEST_PROP(ColorLinearity, MixturesAreHomogeneousWithinTheirRoundings, ()) {
   const auto& upsampler = upsampler_for(drawn_mixture(), drawn_quantity(), drawn_bands(), drawn_negative());
   // Products without rounding: 14 bits by 8.
-  const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), -1, 3, 12));
+  const auto rgb = drawn_colors(drawn_lanes(), GridFloats(drawn_random(), -1, 3, 12));
   const auto factor = static_cast<float>(*rc::gen::inRange(1, 256)) * 0.125F;
   const auto plain = upsampled(upsampler, rgb);
   const auto scaled = upsampled(upsampler, each_component(rgb, [&](float v) { return factor * v; }));
@@ -59,7 +59,7 @@ RC_GTEST_PROP(ColorLinearity, MixturesAreHomogeneousWithinTheirRoundings, ()) {
 RC_GTEST_PROP(ColorLinearity, UnboundedSigmoidsAreExactlyHomogeneousForPowersOfTwo, ()) {
   const Quantity quantity = *rc::gen::element(Quantity::kUnbounded, Quantity::kIlluminant);
   const auto& upsampler = upsampler_for(Method::kSigmoid, quantity, drawn_bands());
-  const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), 0, 2, 20));
+  const auto rgb = drawn_colors(drawn_lanes(), GridFloats(drawn_random(), 0, 2, 20));
   const float factor = std::ldexp(1.0F, *rc::gen::inRange(-60, 100));
   const auto plain = upsampled(upsampler, rgb);
   const auto scaled = upsampled(upsampler, each_component(rgb, [&](float v) { return factor * v; }));
@@ -72,8 +72,8 @@ RC_GTEST_PROP(ColorLinearity, MallettIsAdditiveWithinItsRoundings, ()) {
   const auto& upsampler =
       upsampler_for(Method::kMallett, drawn_quantity(), drawn_bands(), NegativeSamples::kKeep);
   const std::size_t lanes = drawn_lanes();
-  const auto x = drawn_colours(lanes, Steps(drawn_random(), -1, 3, 20));
-  const auto y = drawn_colours(lanes, Steps(drawn_random(), -1, 3, 20));
+  const auto x = drawn_colors(lanes, GridFloats(drawn_random(), -1, 3, 20));
+  const auto y = drawn_colors(lanes, GridFloats(drawn_random(), -1, 3, 20));
   auto both = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) both.at(i, k) = x.at(i, k) + y.at(i, k);  // exact
@@ -97,8 +97,8 @@ RC_GTEST_PROP(ColorLinearity, ProjectionIsAdditiveUnderEveryLight, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
-  const auto x = drawn_spectra(bands, lanes, Steps(drawn_random(), -2, 4, 20));
-  const auto y = drawn_spectra(bands, lanes, Steps(drawn_random(), -2, 4, 20));
+  const auto x = drawn_spectra(bands, lanes, GridFloats(drawn_random(), -2, 4, 20));
+  const auto y = drawn_spectra(bands, lanes, GridFloats(drawn_random(), -2, 4, 20));
   auto both = *SampledSpectra::create(bands, lanes);
   RC_ASSERT(bool(add(x.view(), y.view(), both.span())));  // exact
   const ColorLanes of[3] = {projected(projector, x), projected(projector, y), projected(projector, both)};
@@ -119,7 +119,7 @@ RC_GTEST_PROP(ColorLinearity, RelightingOfMixturesIsHomogeneousWithinItsRounding
   const auto& upsampler = upsampler_for(drawn_mixture(), Quantity::kUnbounded, bands);
   const Projector projector = drawn_projector(bands);
   const auto relighter = *Relighter::create(upsampler, projector, projector.xyz_to_srgb());
-  const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), -1, 3, 12));
+  const auto rgb = drawn_colors(drawn_lanes(), GridFloats(drawn_random(), -1, 3, 12));
   const auto factor = static_cast<float>(*rc::gen::inRange(1, 256)) * 0.125F;
   const auto more = each_component(rgb, [&](float v) { return factor * v; });
   auto plain = *ColorLanes::create(rgb.lanes());
@@ -152,8 +152,8 @@ RC_GTEST_PROP(ColorLinearity, PermutedColoursGivePermutedSpectraAndRelitColours,
   const auto order = drawn_order(lanes);
   // The sigmoid's colours that are hard to find are searched together, in lanes of their own.
   const bool wild = lanes < 20 && *rc::gen::arbitrary<bool>();
-  const auto rgb = wild ? drawn_colours(lanes, ArbitraryFloat(drawn_random()))
-                        : drawn_colours(lanes, Steps(drawn_random(), 0, 1, 20));
+  const auto rgb = wild ? drawn_colors(lanes, ArbitraryFloat(drawn_random()))
+                        : drawn_colors(lanes, GridFloats(drawn_random(), 0, 1, 20));
   const auto mixed = permuted(rgb, order);
   RC_ASSERT(same_lanes(upsampled(upsampler, mixed), permuted(upsampled(upsampler, rgb), order)));
   if (quantity == Quantity::kIlluminant) return;
@@ -163,7 +163,7 @@ RC_GTEST_PROP(ColorLinearity, PermutedColoursGivePermutedSpectraAndRelitColours,
   auto crossed = *ColorLanes::create(lanes);
   RC_ASSERT(bool(relight(relighter, rgb.view(), straight.span(), drawn_execution())));
   RC_ASSERT(bool(relight(relighter, mixed.view(), crossed.span(), drawn_execution())));
-  RC_ASSERT(same_colours(crossed, permuted(straight, order)));
+  RC_ASSERT(same_colors(crossed, permuted(straight, order)));
 }
 
 RC_GTEST_PROP(ColorLinearity, PermutedSpectraGivePermutedColours, ()) {
@@ -172,15 +172,15 @@ RC_GTEST_PROP(ColorLinearity, PermutedSpectraGivePermutedColours, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto order = drawn_order(lanes);
   const auto spectra = drawn_spectra(bands, lanes, ArbitraryFloat(drawn_random()));
-  RC_ASSERT(same_colours(projected(projector, permuted(spectra, order)),
-                         permuted(projected(projector, spectra), order)));
+  RC_ASSERT(same_colors(projected(projector, permuted(spectra, order)),
+                        permuted(projected(projector, spectra), order)));
 }
 
 RC_GTEST_PROP(ColorLinearity, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
   const auto& upsampler = upsampler_for(drawn_method(), drawn_quantity(), drawn_bands(), drawn_negative());
   const std::size_t lanes = drawn_lanes();
-  const auto rgb = lanes < 20 ? drawn_colours(lanes, ArbitraryFloat(drawn_random()))
-                              : drawn_colours(lanes, Steps(drawn_random(), 0, 1, 20));
+  const auto rgb = lanes < 20 ? drawn_colors(lanes, ArbitraryFloat(drawn_random()))
+                              : drawn_colors(lanes, GridFloats(drawn_random(), 0, 1, 20));
   auto found = *CoefficientLanes::create(upsampler, lanes);
   auto expanded = *SampledSpectra::create(upsampler.bands(), lanes);
   RC_ASSERT(bool(coefficients(upsampler, rgb.view(), found, drawn_execution())));
@@ -190,7 +190,7 @@ RC_GTEST_PROP(ColorLinearity, ExpandedCoefficientsAreTheBitsOfUpsampling, ()) {
 
 RC_GTEST_PROP(ColorLinearity, ColoursOfTheCubeComeBackFromExactMethods, ()) {
   const auto& upsampler = upsampler_for(drawn_exact(), Quantity::kReflectance, drawn_bands());
-  const auto rgb = drawn_colours(drawn_lanes(), Steps(drawn_random(), 0, 1, 24));
+  const auto rgb = drawn_colors(drawn_lanes(), GridFloats(drawn_random(), 0, 1, 24));
   const auto projector = *Projector::reflective(upsampler.bands(), *illuminant("D65"));
   const auto xyz = projected(projector, upsampled(upsampler, rgb));
   auto back = *ColorLanes::create(rgb.lanes());
@@ -206,7 +206,7 @@ RC_GTEST_PROP(ColorLinearity, ColoursOfTheCubeComeBackFromExactMethods, ()) {
 }
 
 RC_GTEST_PROP(ColorLinearity, XyzAndSrgbComeBackFromEachOtherWithinTheirRoundings, ()) {
-  const auto first = drawn_colours(drawn_lanes(), Steps(drawn_random(), -4, 16, 16));
+  const auto first = drawn_colors(drawn_lanes(), GridFloats(drawn_random(), -4, 16, 16));
   for (const bool from_rgb : {true, false}) {
     auto there = *ColorLanes::create(first.lanes());
     auto back = *ColorLanes::create(first.lanes());

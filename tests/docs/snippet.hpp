@@ -1,4 +1,4 @@
-// What the C++ blocks of README.md and docs/ run in.
+// Surroundings of the C++ blocks of README.md and docs/.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -37,7 +37,7 @@ struct Batch {
   std::vector<float> x, y, weight, radiance, lambda, density;
 };
 
-/// What the documentation says that the pixels are.
+/// The pixels according to the documentation.
 struct Pixel {
   double weight = 0, count = 0, squares = 0;
   std::array<double, 3> color{}, magnitude{};

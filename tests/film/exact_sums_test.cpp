@@ -9,7 +9,7 @@
 namespace spectile::test {
 namespace {
 
-/// Whole numbers wide enough for any sum of floats here: exact arithmetic for the truth.
+/// Integers wide enough for any sum of floats here: exact arithmetic for the reference.
 __extension__ using Wide = __int128;
 
 constexpr std::size_t kBatch = 65536;
@@ -62,9 +62,9 @@ Errors errors_of(std::size_t samples, int side, int exact_below, Draw draw) {
   EXPECT_TRUE(developed.update());
   Errors out;
   for (std::size_t p = 0; p < pixels; ++p) {
-    const long double truth =
+    const long double reference =
         std::ldexp(static_cast<long double>(exact[p]), -exact_below) / static_cast<long double>(counts[p]);
-    const auto error = [&](long double got) { return static_cast<double>(std::abs(got / truth - 1)); };
+    const auto error = [&](long double got) { return static_cast<double>(std::abs(got / reference - 1)); };
     const auto n = static_cast<long double>(counts[p]);
     const float got = developed.at(0, static_cast<int>(p) % side, static_cast<int>(p) / side);
     out.film = std::max(out.film, error(static_cast<long double>(got)));

@@ -1,4 +1,4 @@
-// What the tests of pixel filters share.
+// Shared by the tests of pixel filters.
 #pragma once
 
 #include <spectile/film/pixel_filter.hpp>

@@ -42,13 +42,13 @@ struct Drawn {
   float mostly(float usual) { return random() % 3 == 0 ? special() : usual; }
 };
 
-/// Whether a position lies so little outside that half a pixel on is the first one's centre.
+/// True if a position lies so little outside that half a pixel on is the first one's centre.
 bool is_rounded(const FilmOptions& o, float x, float y) {
   const auto little = [](float v) { return v < 0 && v > -0x1p-24F; };
   return o.placement == SamplePlacement::kSplat && (little(x) || little(y));
 }
 
-/// Whether |v| is beyond 2^range; nothing where it is near to that.
+/// True if |v| is beyond 2^range; nothing where it is near to that.
 std::optional<bool> is_beyond(double v, int range) {
   const double most = std::ldexp(1.0, range);
   if (std::abs(v) > 1.001 * most) return true;
@@ -117,7 +117,7 @@ TEST(FilmRejections, OfWavelengthsAreCountedOnceByTheFirstReason) {
       const float w = s.weight[0];
       const float pdf = s.density(k, 0);
       std::vector<float> numbers;
-      // What is beyond the range depends on curves: only what is far on one side of it is drawn.
+      // The range depends on curves: only samples far on one side of it are drawn.
       std::optional<bool> beyond = is_beyond(w, o.weight_range);
       if (pdf != 0) {
         const float ratio = s.radiance(k, 0) / pdf;
@@ -129,7 +129,7 @@ TEST(FilmRejections, OfWavelengthsAreCountedOnceByTheFirstReason) {
           if (std::abs(v) > 1e7 && std::abs(v) < 1e13) beyond.reset();
           if (beyond) beyond = *beyond || std::abs(v) >= 1e13;
         }
-        // What is in no band: see the test below.
+        // Samples in no band: see the test below.
         if (o.spectral && lambda < 360) continue;
         if (o.spectral && lambda >= 830) continue;
         const bool in_band = lambda >= 360 && lambda < 830;

@@ -75,7 +75,7 @@ RC_GTEST_PROP(FilmScaling, BandSamplesObeyTheSameLaws, ()) {
   BandBatch samples(10, n);
   BandBatch crossed(10, n);
   ArbitraryFloat wild(drawn_random());
-  Steps place(drawn_random(), 0, 20, 16);
+  GridFloats place(drawn_random(), 0, 20, 16);
   for (std::size_t i = 0; i < n; ++i) {
     samples.put(i, place(), place(), std::abs(place()));
     for (std::size_t b = 0; b < 10; ++b) samples.radiance(b, i) = i % 5 == 0 ? wild() : place();
@@ -121,7 +121,7 @@ FilmSamples drawn_samples(std::size_t n) {
   return out;
 }
 
-/// Whether a layer of `scaled` is exactly a factor times that of `plain`.
+/// True if a layer of `scaled` is exactly a factor times that of `plain`.
 bool times_exactly(const Film& plain, const Film& times, FilmLayer layer, float factor) {
   const auto a = developed(plain, layer);
   const auto b = developed(times, layer);
@@ -157,8 +157,8 @@ RC_GTEST_PROP(FilmScaling, OneSampleAPixelScalesWithItsRadianceExactly, ()) {
   o.sensors.push_back({"canon-eos-5d-mkii", *Sensor::named("canon-eos-5d-mkii")});
   const std::size_t n = std::min<std::size_t>(drawn_lanes(), 400);
   FilmSamples samples(n);
-  Steps radiance(drawn_random(), 1, 4, 16);
-  Steps lambda(drawn_random(), 360, 830, 3);
+  GridFloats radiance(drawn_random(), 1, 4, 16);
+  GridFloats lambda(drawn_random(), 360, 830, 3);
   for (std::size_t i = 0; i < n; ++i) {
     samples.put(i, static_cast<float>(i % 20) + 0.5F, static_cast<float>(i / 20) + 0.5F, 1);
     for (std::size_t k = 0; k < FilmSamples::kCount; ++k) {

@@ -44,12 +44,12 @@ TEST(FilmSplat, WeightsAreTheFiltersWithinAMillionthOfItsPeak) {
     const PixelFilter filter = *PixelFilter::parse(text);
     const double peak = peak_of(filter);
     const int x0 = 100;
-    const int reach = static_cast<int>(filter.radius_x()) + 2;
+    const int half_width = static_cast<int>(filter.radius_x()) + 2;
     double worst = 0;
     for (int i = 0; i < 40; ++i) {
-      const float x = static_cast<float>(x0 + reach) + static_cast<float>(i) / 40 + 0.003F;
-      const auto weights = line_of_weights(filter, x0, 2 * reach, x);
-      for (int j = 0; j < 2 * reach; ++j) {
+      const float x = static_cast<float>(x0 + half_width) + static_cast<float>(i) / 40 + 0.003F;
+      const auto weights = line_of_weights(filter, x0, 2 * half_width, x);
+      for (int j = 0; j < 2 * half_width; ++j) {
         const double want = filter.along_x(x0 + j + 0.5 - static_cast<double>(x)) * filter.along_y(0);
         worst = std::max(worst, std::abs(static_cast<double>(weights[static_cast<std::size_t>(j)]) - want));
       }
@@ -63,12 +63,12 @@ TEST(FilmSplat, EdgesAreOpenBelowAndClosedAbove) {
   for (int r = 1; r <= 64 * 8; r += r < 130 ? 1 : 7) {
     const double radius = r / 8.0;
     const PixelFilter box = *PixelFilter::box(radius, 0.5);
-    const int reach = static_cast<int>(radius) + 2;
+    const int half_width = static_cast<int>(radius) + 2;
     const int x0 = 64;
     for (const double off : {radius - std::floor(radius), 0.0, 0.125, 0.5}) {
-      const auto x = static_cast<float>(x0 + reach + 0.5 + off);
-      const auto weights = line_of_weights(box, x0, 2 * reach + 1, x);
-      for (int j = 0; j < 2 * reach + 1; ++j) {
+      const auto x = static_cast<float>(x0 + half_width + 0.5 + off);
+      const auto weights = line_of_weights(box, x0, 2 * half_width + 1, x);
+      for (int j = 0; j < 2 * half_width + 1; ++j) {
         const double d = x0 + j + 0.5 - static_cast<double>(x);
         ASSERT_EQ(weights[static_cast<std::size_t>(j)], d > -radius && d <= radius ? 1 : 0)
             << "radius " << radius << " distance " << d;
@@ -179,7 +179,7 @@ TEST(Film, SplattedConstantsStayConstant) {
     ASSERT_TRUE(xyz.update());
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 20; ++x) {
-        // The quotient of exact sums: each contribution was rounded once.
+        // The ratio of exact sums: each contribution was rounded once.
         ASSERT_NEAR(xyz.at(1, x, y) / xyz.at(1, 10, 10), 1, 1e-6) << filter << " " << x << " " << y;
       }
     }
@@ -207,7 +207,7 @@ TEST(Film, SplattedWeightsAreTheFilters) {
   }
 }
 
-TEST(Film, TheWayToABoxOfHalfAPixelIsTheSameSplattedOrNot) {
+TEST(Film, ABoxOfHalfAPixelIsTheSameSplattedOrNot) {
   FilmOptions o = small_film();
   Film one = *Film::create(o);
   o.placement = SamplePlacement::kSplat;

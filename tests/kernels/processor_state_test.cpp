@@ -19,7 +19,7 @@ namespace {
 
 #if defined(__x86_64__)
 
-/// Whether XGETBV tells which registers are in use. Source: Intel 64 and IA-32 Architectures Software
+/// True if XGETBV tells which registers are in use. Source: Intel 64 and IA-32 Architectures Software
 /// Developer's Manual, volume 1, 13.6.
 bool tells_registers_in_use() {
   unsigned a = 0;

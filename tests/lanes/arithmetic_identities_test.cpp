@@ -142,9 +142,9 @@ Ascending drawn_ascending(std::size_t lanes, float least, float most) {
 
 /// By how many steps results fall where arguments rise, at most; and whether they fall where the function
 /// itself rises so much that results within 0.501 ULP cannot: from n - 0.499 on they round to n or more.
-template <class Truth>
+template <class Exact>
 std::pair<std::int64_t, bool> falls(const Ascending& x, const SampledSpectra& low, const SampledSpectra& high,
-                                    Truth truth) {
+                                    Exact exact) {
   std::int64_t most = 0;
   bool clearly = false;
   for (std::size_t i = 0; i < low.lanes(); ++i) {
@@ -154,7 +154,7 @@ std::pair<std::int64_t, bool> falls(const Ascending& x, const SampledSpectra& lo
       if (a <= b) continue;
       most = std::max(most, steps_between(b, a));
       const double ulp = double(std::nextafter(a, kInf)) - double(a);
-      clearly = clearly || !(truth(x.high.at(i, k)) - truth(x.low.at(i, k)) < 0.002 * ulp);
+      clearly = clearly || !(exact(x.high.at(i, k)) - exact(x.low.at(i, k)) < 0.002 * ulp);
     }
   }
   return {most, clearly};
@@ -185,22 +185,22 @@ RC_GTEST_PROP(ArithmeticIdentities, RootsRiseWithoutException, ()) {
 RC_GTEST_PROP(ArithmeticIdentities, SumsProductsAndMixturesRiseWithoutException, ()) {
   const std::size_t lanes = drawn_lanes();
   const auto x = drawn_ascending(lanes, -100, 100);
-  const auto other = drawn_spectra(few_bands(), lanes, Steps(drawn_random(), -50, 50, 16));
+  const auto other = drawn_spectra(few_bands(), lanes, GridFloats(drawn_random(), -50, 50, 16));
   const float t = *rc::gen::element(0.0F, 0.25F, 0.7F, 1.0F);
-  const auto truth = [](double v) { return v; };
-  RC_ASSERT(falls(x, binary(&add, x.low, other), binary(&add, x.high, other), truth).first == 0);
+  const auto exact = [](double v) { return v; };
+  RC_ASSERT(falls(x, binary(&add, x.low, other), binary(&add, x.high, other), exact).first == 0);
   const auto mixed = [&](const SampledSpectra& a) {
     return result_of(
         a, [&](auto to, auto& execution) { return lerp(a.view(), other.view(), t, to, execution); });
   };
-  RC_ASSERT(falls(x, mixed(x.low), mixed(x.high), truth).first == 0);
+  RC_ASSERT(falls(x, mixed(x.low), mixed(x.high), exact).first == 0);
   const auto scaled = [&](const SampledSpectra& a) {
     return result_of(a, [&](auto to, auto& execution) { return scale(a.view(), t, to, execution); });
   };
-  RC_ASSERT(falls(x, scaled(x.low), scaled(x.high), truth).first == 0);
+  RC_ASSERT(falls(x, scaled(x.low), scaled(x.high), exact).first == 0);
 }
 
-RC_GTEST_PROP(ArithmeticIdentities, PowersAgreeWithProductsQuotientsAndRoots, ()) {
+RC_GTEST_PROP(ArithmeticIdentities, PowersAgreeWithProductsDivisionsAndRoots, ()) {
   const std::size_t lanes = drawn_lanes();
   auto a = drawn_spectra(few_bands(), lanes, ArbitraryFloat(drawn_random()));
   const auto one = *SampledSpectra::constant(few_bands(), lanes, 1);

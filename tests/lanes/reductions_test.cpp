@@ -1,4 +1,4 @@
-// What a lane holds over its bands: extremes, averages, masks and equality.
+// Reductions of a lane over its bands: extremes, averages, masks and equality.
 #include <spectile/lanes/arithmetic.hpp>
 
 #include "tests/support/lanes.hpp"

@@ -46,7 +46,7 @@ Bands any_bands() {
   return *Bands::from_list(list);
 }
 
-ColorLanes any_colours(std::size_t lanes, const rc::Gen<float>& component) {
+ColorLanes any_colors(std::size_t lanes, const rc::Gen<float>& component) {
   const auto values = *rc::gen::container<std::vector<float>>(3 * lanes, component);
   auto rgb = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -78,7 +78,7 @@ std::vector<std::size_t> any_order(std::size_t n) {
 RC_GTEST_PROP(SampledSpectraBatches, PermutedColoursGivePermutedSpectra, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
-  const auto rgb = any_colours(lanes, any_float());
+  const auto rgb = any_colors(lanes, any_float());
   const auto order = any_order(lanes);
   auto permuted = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -150,7 +150,7 @@ RC_GTEST_PROP(SampledSpectraBatches, PowersOfTwoPassThroughUpsamplingAndProjecti
   const float factor = std::ldexp(1.0F, *rc::gen::inRange(-20, 21));
   // Multiples of 2^-20: neither the products with factor nor those with basis and weights come near the
   // denormals.
-  const auto rgb = any_colours(lanes, between(-2, 4));
+  const auto rgb = any_colors(lanes, between(-2, 4));
   auto scaled = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) scaled.at(i, k) = factor * rgb.at(i, k);
@@ -174,7 +174,7 @@ RC_GTEST_PROP(SampledSpectraBatches, PowersOfTwoPassThroughUpsamplingAndProjecti
 RC_GTEST_PROP(SampledSpectraBatches, ClampedSpectraAndTheirColoursAreNotNegative, ()) {
   const std::size_t lanes = any_lanes();
   const Bands bands = any_bands();
-  const auto rgb = any_colours(lanes, any_float());
+  const auto rgb = any_colors(lanes, any_float());
   auto spectra = *SampledSpectra::create(bands, lanes);
   RC_ASSERT(static_cast<bool>(
       upsample_srgb(any_upsampler(bands, NegativeSamples::kClampToZero), rgb.view(), spectra.span())));

@@ -1,4 +1,4 @@
-// What the tests of sampled wavelengths share.
+// Shared by the tests of sampled wavelengths.
 #pragma once
 
 #include <spectile/lanes/wavelengths.hpp>

@@ -1,4 +1,5 @@
-// Plans: white is exact, promises are kept, few wavelengths beat many even ones, and what cannot be is said.
+// Plans: white is exact, errors are as stated, few wavelengths beat many even ones, and what cannot be is
+// said.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -115,11 +116,11 @@ TEST(Plan, FewWavelengthsDoWhatManyEvenBandsDo) {
     const auto even = even_bands_error(*Bands::parse("400:700:18.75"), o.lights[0], o.reflectances, 1);
     ASSERT_TRUE(even);
     ASSERT_EQ(plan->promises.size(), 1U);
-    // Judged on patches that it has not seen, of sixteen that it was fitted to.
+    // Evaluated on patches that it has not seen, of sixteen that it was fitted to.
     EXPECT_LT(plan->promises[0].error.mean, 0.8 * even->mean) << name;
     EXPECT_LE(plan->promises[0].error.mean, plan->promises[0].error.percentile95);
     EXPECT_LE(plan->promises[0].error.percentile95, plan->promises[0].error.maximum);
-    // On what it was fitted to it is better than its promise.
+    // On what it was fitted to it is better than on held-out ones.
     const auto fitted = plan_error(*plan, o.lights[0], o.reflectances, 1);
     ASSERT_TRUE(fitted);
     EXPECT_LT(fitted->mean, plan->promises[0].error.mean) << name;
@@ -136,7 +137,7 @@ TEST(Plan, BandsAreMoreExactThanPoints) {
     EXPECT_TRUE(points->bands.empty());
     EXPECT_LT(bands->promises[0].error.mean, 0.8 * points->promises[0].error.mean) << name;
     ASSERT_EQ(bands->bands.size(), 10U);
-    // What Bands takes: in order, without overlaps.
+    // Valid Bands: in order, without overlaps.
     ASSERT_TRUE(Bands::from_list(bands->bands)) << name;
     for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(bands->bands[k].centre_nm, bands->wavelengths_nm[k]);
   }
@@ -190,10 +191,10 @@ TEST(Plan, EvenBandsErrAsTheirSumsDo) {
   }
   for (double& v : sum) v /= luminance;
   const auto white = observer.response(fl.spectrum);
-  auto truth = observer.response(fl.spectrum, one[0]);
-  for (double& v : truth) v /= white[1];
+  auto reference = observer.response(fl.spectrum, one[0]);
+  for (double& v : reference) v /= white[1];
   const std::array<double, 3> relative = {white[0] / white[1], 1, white[2] / white[1]};
-  const double expected = ciede2000(xyz_to_lab(truth, relative), xyz_to_lab(sum, relative));
+  const double expected = ciede2000(xyz_to_lab(reference, relative), xyz_to_lab(sum, relative));
   EXPECT_NEAR(even_bands_error(bands, fl, one, 1)->maximum, expected, 0.02 * expected);
 }
 
@@ -207,10 +208,10 @@ TEST(Plan, ErrorsAreThoseOfItsOwnFormula) {
   for (const Spectrum& patch : o.reflectances) {
     std::vector<double> samples;
     for (const double nm : plan.wavelengths_nm) samples.push_back(patch(nm));
-    auto truth = observer.response(o.lights[0].spectrum, patch);
-    for (double& v : truth) v /= white[1];
+    auto reference = observer.response(o.lights[0].spectrum, patch);
+    for (double& v : reference) v /= white[1];
     const std::array<double, 3> relative = {white[0] / white[1], 1, white[2] / white[1]};
-    mean += ciede2000(xyz_to_lab(truth, relative), xyz_to_lab(plan.xyz(0, samples), relative)) /
+    mean += ciede2000(xyz_to_lab(reference, relative), xyz_to_lab(plan.xyz(0, samples), relative)) /
             static_cast<double>(o.reflectances.size());
   }
   EXPECT_NEAR(plan_error(plan, o.lights[0], o.reflectances, 1)->mean, mean, 0.02);
@@ -226,7 +227,7 @@ TEST(Plan, IsTheSameEveryTime) {
   EXPECT_EQ(a.lights[1].emission, b.lights[1].emission);
 }
 
-TEST(Plan, ManyBouncesArePromisedToo) {
+TEST(Plan, ManyBouncesHaveAnErrorToo) {
   PlannerOptions o = options({"D65"}, 12);
   o.bounces = 2;
   const Plan plan = *make_plan(o);

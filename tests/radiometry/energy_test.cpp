@@ -20,7 +20,7 @@ SampledSpectra product_of(const SampledSpectra& a, const SampledSpectra& b) {
   return out;
 }
 
-/// Whether no component of any lane is smaller in `more`.
+/// True if no component of any lane is smaller in `more`.
 bool none_smaller(const ColorLanes& more, const ColorLanes& less) {
   for (std::size_t i = 0; i < less.lanes(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,9 +46,9 @@ std::pair<float, float> extremes(const SampledSpectra& spectra) {
 
 /// Colours of the cube, many of them on its faces, edges and grey diagonal.
 ColorLanes drawn_cube(std::size_t lanes) {
-  Steps step(drawn_random(), 0, 1, 24);
+  GridFloats step(drawn_random(), 0, 1, 24);
   std::mt19937 random = drawn_random();
-  auto rgb = drawn_colours(lanes, [&] {
+  auto rgb = drawn_colors(lanes, [&] {
     const std::uint32_t kind = random() % 6;
     return kind == 0 ? 0.0F : kind == 1 ? 1.0F : step();
   });
@@ -131,7 +131,7 @@ RC_GTEST_PROP(EnergyConservation, WhiteHasTheWhitesColourUnderEveryLight, ()) {
 
 /// Greys in two batches, the second's not below the first's; often neighbours.
 std::pair<ColorLanes, ColorLanes> drawn_greys(std::size_t lanes) {
-  Steps step(drawn_random(), 0, 1, 24);
+  GridFloats step(drawn_random(), 0, 1, 24);
   std::mt19937 random = drawn_random();
   auto dark = *ColorLanes::create(lanes);
   auto light = *ColorLanes::create(lanes);
@@ -181,8 +181,8 @@ RC_GTEST_PROP(EnergyConservation, LighterGreysHaveNoSmallerSamplesButRoundingInS
 RC_GTEST_PROP(EnergyConservation, LargerColoursHaveNoLessLuminance, ()) {
   const auto& upsampler = upsampler_for(drawn_exact(), Quantity::kReflectance, drawn_bands());
   const std::size_t lanes = drawn_lanes();
-  const auto dark = drawn_colours(lanes, Steps(drawn_random(), 0, 1, 24));
-  const auto other = drawn_colours(lanes, Steps(drawn_random(), 0, 1, 24));
+  const auto dark = drawn_colors(lanes, GridFloats(drawn_random(), 0, 1, 24));
+  const auto other = drawn_colors(lanes, GridFloats(drawn_random(), 0, 1, 24));
   auto light = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) light.at(i, k) = std::max(dark.at(i, k), other.at(i, k));
@@ -202,7 +202,7 @@ RC_GTEST_PROP(EnergyConservation, MoreInEveryBandIsNoDarker, ()) {
   const Bands bands = drawn_bands();
   const Projector projector = drawn_projector(bands);
   const std::size_t lanes = drawn_lanes();
-  auto less = drawn_spectra(bands, lanes, Steps(drawn_random(), -4, 16, 20));
+  auto less = drawn_spectra(bands, lanes, GridFloats(drawn_random(), -4, 16, 20));
   std::mt19937 random = drawn_random();
   const auto more = batch_of(bands, lanes, [&](std::size_t i, std::size_t b) {
     const float v = less.at(i, b);

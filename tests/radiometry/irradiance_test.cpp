@@ -41,7 +41,7 @@ std::vector<Vector3> corners_of(const QuadEmitter& q) {
 
 const Receiver kTable = {};
 
-TEST(Disk, OnItsAxisIsTheTextbookFormula) {
+TEST(Disk, OnItsAxisIsTheClosedForm) {
   for (const double r : {1e-9, 0.01, 1.0, 3.0, 1e6}) {
     for (const double h : {1e-3, 1.0, 20.0}) {
       const double want = pi * r * r / (r * r + h * h);

@@ -269,8 +269,8 @@ TEST(Photons, RateOfASpectrum) {
 TEST(Photons, OfABlackBodyAreCountedByZetaOfThree) {
   // All wavelengths: 2 c zeta(3) * 2 (k T / h c)^3 a steradian; here up to 1000 peaks.
   const double t = 3000;
-  const double reach = (kBoltzmannConstant * Temperature(t) / (kPlanckConstant * kSpeedOfLight)).value();
-  const double want = 4 * 1.2020569031595942 * 299792458.0 * std::pow(reach, 3);
+  const double wavenumber = (kBoltzmannConstant * Temperature(t) / (kPlanckConstant * kSpeedOfLight)).value();
+  const double want = 4 * 1.2020569031595942 * 299792458.0 * std::pow(wavenumber, 3);
   double got = 0;
   for (double first = 100; first < 1e6; first *= 1.5)
     got += photon_rate(blackbody(t), first, 1.5 * first)->value();

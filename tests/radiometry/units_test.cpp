@@ -46,7 +46,7 @@ static_assert(!std::convertible_to<double, Radiance> && !std::convertible_to<Rad
 static_assert(!std::constructible_from<Radiance, Irradiance>);
 static_assert(!std::assignable_from<Radiance&, Irradiance>);
 
-// Units of products and quotients.
+// Units of products and ratios.
 static_assert(std::same_as<decltype(Radiance() * SolidAngle()), Irradiance>);
 static_assert(std::same_as<decltype(Irradiance() * Area()), RadiantFlux>);
 static_assert(std::same_as<decltype(RadiantFlux() / Area() / SolidAngle() / Wavelength()), SpectralRadiance>);

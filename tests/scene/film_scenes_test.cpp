@@ -1,4 +1,4 @@
-// Procedural scenes drawn into films: they converge to their own truth, and shards are one run.
+// Procedural scenes drawn into films: they converge to their reference values, and shards are one run.
 #include <algorithm>
 #include <spectile/scene/procedural_scene.hpp>
 
@@ -18,18 +18,18 @@ void draw_into(Film& film, const ProceduralScene& s, const SceneSampling& sampli
   }
 }
 
-struct Way {
+struct Placement {
   const char* filter;
   SamplePlacement placement;
 };
 
-constexpr Way kWays[] = {
+constexpr Placement kPlacements[] = {
     {"box:0.5", SamplePlacement::kOnePixel},     {"gaussian:1.5:0.5", SamplePlacement::kOnePixel},
     {"mitchell:2", SamplePlacement::kOnePixel},  {"lanczos:2.5:2", SamplePlacement::kOnePixel},
     {"triangle:1.5x1", SamplePlacement::kSplat}, {"gaussian:2:0.8", SamplePlacement::kSplat}};
 
-FilmOptions options_of(const Way& way, FilmInput input) {
-  FilmOptions o = film_of(12, 9, way.filter, way.placement);
+FilmOptions options_of(const Placement& placed, FilmInput input) {
+  FilmOptions o = film_of(12, 9, placed.filter, placed.placement);
   o.crop = PixelWindow{2, 1, 11, 8};
   o.input = input;
   o.spectral = true;
@@ -49,12 +49,12 @@ struct Runs {
   }
 };
 
-void expect_truth(const std::string& name, const Way& way, FilmInput input, std::size_t runs,
-                  std::uint64_t samples) {
+void expect_reference(const std::string& name, const Placement& placed, FilmInput input, std::size_t runs,
+                      std::uint64_t samples) {
   const ProceduralScene s = scene(name);
-  const FilmOptions o = options_of(way, input);
+  const FilmOptions o = options_of(placed, input);
   std::vector<Runs> values;
-  std::vector<double> truth;
+  std::vector<double> reference;
   for (std::size_t run = 0; run < runs; ++run) {
     Film film = *Film::create(o);
     SceneSampling sampling;
@@ -73,9 +73,9 @@ void expect_truth(const std::string& name, const Way& way, FilmInput input, std:
           for (std::size_t p = 0; p < d.planes(); ++p) {
             if (run == 0) {
               values.emplace_back();
-              truth.push_back(layer == FilmLayer::kXyz      ? xyz[p]
-                              : layer == FilmLayer::kSensor ? rgb[p]
-                                                            : bands[p]);
+              reference.push_back(layer == FilmLayer::kXyz      ? xyz[p]
+                                  : layer == FilmLayer::kSensor ? rgb[p]
+                                                                : bands[p]);
             }
             values[at++].add(static_cast<double>(d.at(p, x, y)));
           }
@@ -90,53 +90,54 @@ void expect_truth(const std::string& name, const Way& way, FilmInput input, std:
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double mean = values[i].sum / n;
     const double spread = std::max(0.0, values[i].squares / n - mean * mean) / (n - 1);
-    const double rounding = 1e-5 * std::abs(truth[i]) + 1e-12;
+    const double rounding = 1e-5 * std::abs(reference[i]) + 1e-12;
     if (std::sqrt(spread) < rounding) {
-      EXPECT_NEAR(mean, truth[i], 20 * rounding) << name << " " << way.filter;
+      EXPECT_NEAR(mean, reference[i], 20 * rounding) << name << " " << placed.filter;
       continue;
     }
-    const double z = (mean - truth[i]) / std::sqrt(spread);
+    const double z = (mean - reference[i]) / std::sqrt(spread);
     sum += z * z;
     worst = std::max(worst, std::abs(z));
     ++count;
   }
   // Student's t squared with 23 degrees of freedom has a mean of 1.1.
   if (count > 0) {
-    EXPECT_LT(sum / count, 2.0) << name << " " << way.filter << " worst " << worst << " of " << count;
+    EXPECT_LT(sum / count, 2.0) << name << " " << placed.filter << " worst " << worst << " of " << count;
   }
 }
 
-TEST(FilmScenes, ConvergeToTheirTruth) {
-  for (const Way& way : kWays) {
+TEST(FilmScenes, ConvergeToTheirReference) {
+  for (const Placement& placed : kPlacements) {
     for (const auto input : {FilmInput::kWavelengths, FilmInput::kBands}) {
       // Where a filter's tail reaches something bright, a few samples tell nothing of their spread.
-      const bool all = way.placement == SamplePlacement::kSplat || std::string(way.filter) == "box:0.5";
+      const bool all = placed.placement == SamplePlacement::kSplat || std::string(placed.filter) == "box:0.5";
       for (const char* name : {"gradients", "edges", "mixed"}) {
         if (!all && std::string(name) != "gradients") continue;
-        ASSERT_NO_FATAL_FAILURE(expect_truth(name, way, input, 24, 100));
+        ASSERT_NO_FATAL_FAILURE(expect_reference(name, placed, input, 24, 100));
       }
     }
   }
 }
 
-TEST(FilmScenes, AllOfThemConvergeToTheirTruth) {
-  for (const Way& way : kWays) {
+TEST(FilmScenes, AllOfThemConvergeToTheirReference) {
+  for (const Placement& placed : kPlacements) {
     for (const auto input : {FilmInput::kWavelengths, FilmInput::kBands}) {
       for (const std::string& name : ProceduralScene::names()) {
         // Its brightest strip is 10^9 times the darkest: a tail that reaches it is not met in so few samples.
-        const bool near = way.placement == SamplePlacement::kSplat || std::string(way.filter) == "box:0.5";
+        const bool near =
+            placed.placement == SamplePlacement::kSplat || std::string(placed.filter) == "box:0.5";
         if (name == "decades" && !near) continue;
-        ASSERT_NO_FATAL_FAILURE(expect_truth(name, way, input, 24, 3000));
+        ASSERT_NO_FATAL_FAILURE(expect_reference(name, placed, input, 24, 3000));
       }
     }
   }
 }
 
 TEST(FilmScenes, ShardsMergedAreOneRun) {
-  for (const Way& way : kWays) {
+  for (const Placement& placed : kPlacements) {
     for (const auto input : {FilmInput::kWavelengths, FilmInput::kBands}) {
       for (const std::string& name : ProceduralScene::names()) {
-        const FilmOptions o = options_of(way, input);
+        const FilmOptions o = options_of(placed, input);
         SceneSampling sampling;
         sampling.samples_per_pixel = 11;
         Film whole = *Film::create(o);
@@ -148,8 +149,8 @@ TEST(FilmScenes, ShardsMergedAreOneRun) {
           ASSERT_NO_FATAL_FAILURE(draw_into(part, scene(name), sampling));
           ASSERT_TRUE(merged.merge(part));
         }
-        EXPECT_TRUE(whole.same_contents(merged)) << name << " " << way.filter;
-        EXPECT_EQ(whole.stats().rejected.total(), 0U) << name << " " << way.filter;
+        EXPECT_TRUE(whole.same_contents(merged)) << name << " " << placed.filter;
+        EXPECT_EQ(whole.stats().rejected.total(), 0U) << name << " " << placed.filter;
       }
     }
   }

@@ -1,4 +1,4 @@
-// What the tests of procedural scenes share.
+// Shared by the tests of procedural scenes.
 #pragma once
 
 #include <spectile/scene/procedural_scene.hpp>

@@ -117,10 +117,10 @@ TEST(IrregularTables, InterpolationIsTheOraclesOneByOneAndInBatches) {
     Table t = any_table(random);
     for (double& nm : t.nm) nm = static_cast<float>(nm);  // where the batch has its knots too
     const auto linear = *PiecewiseLinearSpectrum::from_samples(t.nm, t.values);
-    const double reach = t.nm.back() - t.nm.front() + 20;
+    const double range = t.nm.back() - t.nm.front() + 20;
     for (std::size_t i = 0; i < 64; ++i) {
       lambda.at(i, 0) = i < t.nm.size() ? static_cast<float>(t.nm[i])
-                                        : static_cast<float>(t.nm.front() - 10 + reach * unit(random));
+                                        : static_cast<float>(t.nm.front() - 10 + range * unit(random));
     }
     ASSERT_TRUE(sample(linear, lambda.view(), values.span()));
     for (std::size_t i = 0; i < 64; ++i) {

@@ -1,4 +1,4 @@
-// What the tests of spectra share.
+// Shared by the tests of spectra.
 #pragma once
 
 namespace spectile::test {

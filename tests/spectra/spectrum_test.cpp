@@ -206,8 +206,8 @@ TEST(InnerProduct, OfTwoGaussiansIsTheClosedForm) {
     ++compared;
     const auto a = *GaussianSumSpectrum::from_lobes({{1, m1, s1, s1}});
     const auto b = *GaussianSumSpectrum::from_lobes({{1, m2, s2, s2}});
-    const double reach = 60 * (s1 + s2) + 100;
-    ASSERT_NEAR(inner_product(a, b, mean - reach, mean + reach) / want, 1, 1e-9)
+    const double half_width = 60 * (s1 + s2) + 100;
+    ASSERT_NEAR(inner_product(a, b, mean - half_width, mean + half_width) / want, 1, 1e-9)
         << a.to_text() << ", " << b.to_text();
   }
   EXPECT_GT(compared, 200);

@@ -1,4 +1,4 @@
-// What the tests of laws share: inputs that rapidcheck draws, and whatever is dear to make, made once.
+// Inputs that rapidcheck draws, and objects that are expensive to make, made once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace spectile::test {
 
 /// Rounding error of one operation, relative.
 inline constexpr double kU = 0x1p-24;
-/// What (1 + u)^n - 1 has beyond n u, for any n here.
+/// Bound of (1 + u)^n - 1 over n u, for any n here.
 inline constexpr double kHigherOrders = 1 + 0x1p-16;
 
 /// rapidcheck reads the variable at the first property.
@@ -35,9 +35,9 @@ inline std::mt19937 drawn_random() {
 }
 
 /// Multiples of 2^-`bits` from low to high.
-class Steps {
+class GridFloats {
  public:
-  Steps(std::mt19937 random, int low, int high, int bits)
+  GridFloats(std::mt19937 random, int low, int high, int bits)
       : random_(random), pick_(low << bits, high << bits), step_(std::ldexp(1.0F, -bits)) {}
   float operator()() { return static_cast<float>(pick_(random_)) * step_; }
 
@@ -67,7 +67,7 @@ SampledSpectra drawn_spectra(const Bands& bands, std::size_t lanes, Draw draw) {
   return batch_of(bands, lanes, [&](std::size_t, std::size_t) { return draw(); });
 }
 template <class Draw>
-ColorLanes drawn_colours(std::size_t lanes, Draw draw) {
+ColorLanes drawn_colors(std::size_t lanes, Draw draw) {
   auto out = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) out.at(i, k) = draw();
@@ -101,7 +101,7 @@ inline SampledSpectra permuted(const SampledSpectra& from, const std::vector<std
   return batch_of(from.bands(), from.lanes(),
                   [&](std::size_t lane, std::size_t band) { return from.at(order[lane], band); });
 }
-inline bool same_colours(const ColorLanes& a, const ColorLanes& b) {
+inline bool same_colors(const ColorLanes& a, const ColorLanes& b) {
   for (std::size_t i = 0; i < a.lanes(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!same_bits(a.at(i, k), b.at(i, k))) return false;

@@ -1,4 +1,4 @@
-// What the unit tests share: aligned test data with special values in it, and comparison by bits.
+// Shared by the tests: aligned test data with special values in it, and comparison by bits.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -78,7 +78,7 @@ void expect_exact_corners(const Case& c, const BasisTable& basis, double lowest)
   for (std::size_t b = 0; b < basis.size(); ++b) EXPECT_EQ(basis[b][0], space.white[b]);
 }
 
-/// Whether a colour is that of some spectrum in [0, 1]: those of all of them are a solid between planes that
+/// True if a colour is that of some spectrum in [0, 1]: those of all of them are a solid between planes that
 /// are each spanned by the colours of two bands. Positive inside.
 double depth_in_solid(const WorkingSpace& space, const Triple& color) {
   std::vector<Triple> bands;
@@ -96,9 +96,9 @@ double depth_in_solid(const WorkingSpace& space, const Triple& color) {
       const Triple normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       const double length = std::sqrt(dot(normal, normal));
       if (length < 1e-14) continue;
-      double reach = 0;
-      for (const Triple& band : bands) reach += std::max(0.0, dot(normal, band));
-      least = std::min(least, (reach - dot(normal, color)) / length);
+      double support = 0;
+      for (const Triple& band : bands) support += std::max(0.0, dot(normal, band));
+      least = std::min(least, (support - dot(normal, color)) / length);
     }
   }
   return least;

@@ -67,7 +67,7 @@ TEST(ExactMethods, ColoursNearBlackAndAboveOneReturnAsWell) {
   }
 }
 
-TEST(ExactMethods, WhiteIsTheWhiteReflectorOrTheLightItself) {
+TEST(ExactMethods, WhiteIsThePerfectDiffuserOrTheLightItself) {
   for_many([](const Upsampler& upsampler) {
     const Bands& bands = upsampler.bands();
     const auto spectra = spectra_of(upsampler, lanes_of({{1, 1, 1}, {0, 0, 0}, {0.25F, 0.25F, 0.25F}}));
@@ -128,7 +128,7 @@ TEST(ExactMethods, MallettIsLinearInEachPrimary) {
   // A mixture of three spectra that sum to white: so a filter on the spectrum is the same filter on each of
   // them.
   const auto upsampler = *Upsampler::create(Method::kMallett, Quantity::kReflectance, Bands());
-  const auto rgb = random_colours(4099, 1);
+  const auto rgb = random_colors(4099, 1);
   const auto spectra = spectra_of(upsampler, rgb);
   for (std::size_t i = 0; i < rgb.lanes(); ++i) {
     for (std::size_t b = 0; b < 60; ++b) {

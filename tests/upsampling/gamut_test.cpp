@@ -45,7 +45,7 @@ double luminance_of(const Upsampler& upsampler, const ColorLanes& rgb, std::size
 
 /// How far along from the grey of luminance y to the colour it was a colour has come; that it is on that line
 /// is expected.
-double part_of_way(const ColorLanes& before, const ColorLanes& after, std::size_t i, double y) {
+double part_of_distance(const ColorLanes& before, const ColorLanes& after, std::size_t i, double y) {
   double along = 0;
   double length = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -83,7 +83,7 @@ TEST(Gamut, MixturesOfBasesTakeEveryColourWithoutANegativeComponent) {
 TEST(Gamut, ColoursOutsideKeepLuminanceAndDominantWavelength) {
   for (const Method method : kMixing) {
     const auto upsampler = upsampler_of(method);
-    const auto before = random_colours(4099, 1, -0.4F, 1.6F);
+    const auto before = random_colors(4099, 1, -0.4F, 1.6F);
     auto rgb = copy_of(before);
     const auto report = limit(upsampler, rgb);
     std::size_t outside = 0;
@@ -97,7 +97,7 @@ TEST(Gamut, ColoursOutsideKeepLuminanceAndDominantWavelength) {
       ASSERT_FALSE(has_negative(rgb, i)) << i;
       const double y = std::max(0.0, luminance_of(upsampler, before, i));
       ASSERT_NEAR(luminance_of(upsampler, rgb, i), y, 1e-6) << i;
-      const double part = part_of_way(before, rgb, i, y);
+      const double part = part_of_distance(before, rgb, i, y);
       ASSERT_TRUE(part >= -1e-6 && part <= 1) << i << " " << part;
       // A little further out is outside: the component that was lowest has just reached 0.
       double least = INFINITY;
@@ -127,7 +127,7 @@ TEST(Gamut, ColoursBelowBlackBecomeBlack) {
 TEST(Gamut, KeepingCountsAndChangesNothing) {
   for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kSigmoid}) {
     const auto upsampler = upsampler_of(method);
-    const auto before = random_colours(257, 2, -0.5F, 1.5F);
+    const auto before = random_colors(257, 2, -0.5F, 1.5F);
     auto kept = copy_of(before);
     auto clipped = copy_of(before);
     const auto report = limit(upsampler, kept, OutOfGamut::kKeep);
@@ -143,7 +143,7 @@ TEST(Gamut, ResultsDependNeitherOnThreadsNorOnTiles) {
   for (const Method method : {Method::kSmitsExact, Method::kSigmoid}) {
     const auto upsampler = upsampler_of(method);
     // Few lanes outside, the first of them late.
-    auto before = random_colours(4099, 3);
+    auto before = random_colors(4099, 3);
     for (const std::size_t i : {777U, 778U, 1500U, 4098U}) before.at(i, i % 3) = -0.7F;
     auto want = copy_of(before);
     const auto report = limit(upsampler, want, OutOfGamut::kClip, {1, 1U << 20U});
@@ -186,7 +186,7 @@ TEST(Gamut, TheSigmoidsBoundaryIsReachedFromInside) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
     const auto upsampler = upsampler_of(Method::kSigmoid, quantity);
     const float highest = quantity == Quantity::kReflectance ? 1.5F : 1.0F;
-    const auto before = random_colours(513, 4, -0.5F, highest);
+    const auto before = random_colors(513, 4, -0.5F, highest);
     auto rgb = copy_of(before);
     auto further = copy_of(before);
     const auto report = limit(upsampler, rgb);
@@ -201,7 +201,7 @@ TEST(Gamut, TheSigmoidsBoundaryIsReachedFromInside) {
         continue;
       }
       ASSERT_NEAR(luminance_of(upsampler, rgb, i), y, 1e-6) << i;
-      const double part = part_of_way(before, rgb, i, y);
+      const double part = part_of_distance(before, rgb, i, y);
       ASSERT_TRUE(part >= -1e-6 && part < 1) << i << " " << part;
       for (std::size_t k = 0; k < 3; ++k) {
         further.at(i, k) = static_cast<float>(y + (part + 0x1p-7) * (before.at(i, k) - y));
@@ -224,7 +224,7 @@ TEST(Gamut, TheSigmoidsBoundaryIsReachedFromInside) {
 TEST(Gamut, LimitedColoursReturnFromTheirSigmoids) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
     const auto upsampler = upsampler_of(Method::kSigmoid, quantity);
-    auto rgb = random_colours(3000, 7, -0.5F, 1.5F);
+    auto rgb = random_colors(3000, 7, -0.5F, 1.5F);
     limit(upsampler, rgb);
     // Within 1e-5 of the largest component, which a light's scale is twice.
     EXPECT_LE(round_trip(upsampler, rgb).rgb, quantity == Quantity::kReflectance ? 2e-5 : 4e-5);
@@ -242,7 +242,7 @@ TEST(Gamut, MoreThanWhiteBecomesWhiteAndLessThanBlackBlack) {
 
 TEST(Gamut, LimitedColoursOfUnboundedSigmoidsScaleWithTheLight) {
   const auto upsampler = upsampler_of(Method::kSigmoid, Quantity::kIlluminant);
-  auto one = random_colours(65, 5, -0.3F, 1.0F);
+  auto one = random_colors(65, 5, -0.3F, 1.0F);
   auto many = copy_of(one);
   for (std::size_t i = 0; i < 3 * many.lanes(); ++i) many.at(i / 3, i % 3) *= 0x1p20F;
   EXPECT_EQ(limit(upsampler, many).outside, limit(upsampler, one).outside);
@@ -251,13 +251,13 @@ TEST(Gamut, LimitedColoursOfUnboundedSigmoidsScaleWithTheLight) {
 }
 
 TEST(Gamut, WhatIsNotFiniteStays) {
-  const Rgb colours[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},   {kInf, 0, 0},
-                         {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1}, {kNan, -1, 0.5F},
-                         {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},  {kNan, kNan, kNan}};
+  const Rgb colors[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},   {kInf, 0, 0},
+                        {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1}, {kNan, -1, 0.5F},
+                        {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},  {kNan, kNan, kNan}};
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
       const auto upsampler = upsampler_of(method, quantity);
-      const auto before = lanes_of(colours);
+      const auto before = lanes_of(colors);
       auto rgb = copy_of(before);
       EXPECT_EQ(limit(upsampler, rgb).outside, 0U);
       for (std::size_t i = 0; i < rgb.lanes(); ++i) {
@@ -268,7 +268,7 @@ TEST(Gamut, WhatIsNotFiniteStays) {
 }
 
 TEST(Gamut, WhereTheColoursMoveDoesNotDependOnTheBands) {
-  const auto before = random_colours(257, 8, -0.4F, 1.0F);
+  const auto before = random_colors(257, 8, -0.4F, 1.0F);
   auto rgb = copy_of(before);
   limit(upsampler_of(Method::kSmitsExact), rgb);
   for (const char* bands : {"380:780:5", "360:830:1", "400:700:10"}) {
@@ -280,7 +280,7 @@ TEST(Gamut, WhereTheColoursMoveDoesNotDependOnTheBands) {
 
 TEST(Gamut, SamplesThatAreNotAlignedAreAnError) {
   const auto upsampler = upsampler_of(Method::kSmits);
-  auto rgb = random_colours(128, 6);
+  auto rgb = random_colors(128, 6);
   ColorSpan span = rgb.span();
   span.c[1] += 1;
   span.lanes = 64;

@@ -17,7 +17,8 @@ ColorLanes colors(std::size_t lanes, float low, float high, std::uint32_t seed) 
 }
 
 /// Upsampled, projected, transformed: the long way.
-ColorLanes long_way(const Upsampler& upsampler, const Projector& under, const Matrix3& to, ColorView rgb) {
+ColorLanes through_spectra(const Upsampler& upsampler, const Projector& under, const Matrix3& to,
+                           ColorView rgb) {
   auto spectra = *SampledSpectra::create(upsampler.bands(), rgb.lanes);
   auto xyz = *ColorLanes::create(rgb.lanes);
   EXPECT_TRUE(upsample_srgb(upsampler, rgb, spectra.span()));
@@ -37,7 +38,7 @@ TEST_P(Relighting, ComesWithinItsBoundOfTheLongWay) {
       const auto relighter = *Relighter::create(upsampler, under, under.xyz_to_srgb());
       for (const std::size_t lanes : kSizes) {
         const ColorLanes rgb = colors(lanes, 0.0F, 1.0F, static_cast<std::uint32_t>(lanes));
-        const ColorLanes expected = long_way(upsampler, under, under.xyz_to_srgb(), rgb.view());
+        const ColorLanes expected = through_spectra(upsampler, under, under.xyz_to_srgb(), rgb.view());
         auto got = *ColorLanes::create(lanes);
         ASSERT_TRUE(relight(relighter, rgb.view(), got.span()));
         for (std::size_t i = 0; i < lanes; ++i) {

@@ -38,19 +38,19 @@ TEST(Representation, GreyIsGreyInBoth) {
   }
 }
 
-TEST(Representation, SaturatedBouncesUnderSpikyLightNeedSpectra) {
+TEST(Representation, SaturatedBouncesUnderLineSpectraNeedSpectra) {
   const auto rgb = *RgbRepresentation::create();
   const auto sampled = *SampledRepresentation::create(*Bands::parse("380:780:5"));
-  const auto truth = *SampledRepresentation::create(*Bands::parse("360:830:1"));
+  const auto reference = *SampledRepresentation::create(*Bands::parse("360:830:1"));
   const auto upsampler =
       *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse("360:830:5"));
   const Spectrum orange = *rgb_albedo_spectrum(upsampler, {0.7, 0.3, 0.05});
-  const auto white = xyz_after(truth, fluorescent(), ConstantSpectrum(1), 0);
+  const auto white = xyz_after(reference, fluorescent(), ConstantSpectrum(1), 0);
   const auto off = [&](const std::array<double, 3>& xyz, const std::array<double, 3>& want) {
     return ciede2000(xyz_to_lab(xyz, white), xyz_to_lab(want, white));
   };
   for (const int bounces : {1, 2, 3}) {
-    const auto want = xyz_after(truth, fluorescent(), orange, bounces);
+    const auto want = xyz_after(reference, fluorescent(), orange, bounces);
     const double of_rgb = off(xyz_after(rgb, fluorescent(), orange, bounces), want);
     const double of_sampled = off(xyz_after(sampled, fluorescent(), orange, bounces), want);
     EXPECT_LT(of_sampled, 0.7) << bounces;

@@ -23,15 +23,15 @@ inline ColorLanes cube_grid(std::size_t n) {
   return rgb;
 }
 
-inline ColorLanes lanes_of(std::span<const Rgb> colours) {
-  auto rgb = *ColorLanes::create(colours.size());
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = colours[i][k];
+inline ColorLanes lanes_of(std::span<const Rgb> colors) {
+  auto rgb = *ColorLanes::create(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = colors[i][k];
   }
   return rgb;
 }
-inline ColorLanes lanes_of(std::initializer_list<Rgb> colours) {
-  return lanes_of(std::span(colours.begin(), colours.size()));
+inline ColorLanes lanes_of(std::initializer_list<Rgb> colors) {
+  return lanes_of(std::span(colors.begin(), colors.size()));
 }
 
 /// The corners of the cube; bit 0 of a lane's number is red, bit 1 green, bit 2 blue.
@@ -43,7 +43,7 @@ inline ColorLanes cube_corners() {
   return rgb;
 }
 
-inline ColorLanes random_colours(std::size_t lanes, std::uint32_t seed, float low = 0, float high = 1) {
+inline ColorLanes random_colors(std::size_t lanes, std::uint32_t seed, float low = 0, float high = 1) {
   const Floats values = plain_floats(3 * lanes, seed, low, high);
   auto rgb = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < 3 * lanes; ++i) rgb.at(i / 3, i % 3) = values[i];
@@ -58,7 +58,7 @@ inline SampledSpectra spectra_of(const Upsampler& upsampler, const ColorLanes& r
   return spectra;
 }
 
-/// What sees the colours that the upsampler was asked for.
+/// The sensor that the upsampler was made for.
 inline Projector projector_of(const Upsampler& upsampler) {
   const UpsamplerOptions& options = upsampler.options();
   if (upsampler.quantity() == Quantity::kIlluminant) {
@@ -72,7 +72,7 @@ inline Projector projector_of(const Upsampler& upsampler) {
 /// inverse of the upsampler's matrix.
 struct RoundTrip {
   double rgb = 0;         ///< largest difference of a component
-  double ciede2000 = 0;   ///< largest difference, relative to the white reflector or light
+  double ciede2000 = 0;   ///< largest difference, relative to the perfect diffuser or light
   std::size_t worst = 0;  ///< lane of `rgb`
   float least = kInf;     ///< least and greatest sample
   float greatest = -kInf;

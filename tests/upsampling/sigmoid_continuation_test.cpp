@@ -75,9 +75,9 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
   for (const char* space : {"srgb", "acescg"}) {
     const auto upsampler = sigmoid("400:700:10", space);
     Floats plain = plain_floats(3 * 4160, 2, -0.2F, 1.1F);
-    for (const Floats* colours : {&rgb, &plain}) {
-      const Reached got = reached(k(), upsampler, *colours);
-      const Reached want = reached(ref(), upsampler, *colours);
+    for (const Floats* colors : {&rgb, &plain}) {
+      const Reached got = reached(k(), upsampler, *colors);
+      const Reached want = reached(ref(), upsampler, *colors);
       ASSERT_TRUE(same_bits(got.part, want.part)) << space;
       ASSERT_TRUE(same_bits(got.c, want.c)) << space;
     }
@@ -131,17 +131,17 @@ TEST(SigmoidContinuation, DarkPurplesOverWideRangesReturn) {
 
 /// Purples, reds, blues and their neighbours down to black by powers: purples rise at both ends of the range.
 ColorLanes saturated_down_to(int levels) {
-  std::vector<Rgb> colours;
+  std::vector<Rgb> colors;
   for (int level = 0; level < levels; ++level) {
     const float z = std::ldexp(1.0F, -level);
     for (int i = 0; i < 17; ++i) {
       const auto part = static_cast<float>(i) / 16;
       const float u = part * part * part;
-      colours.insert(colours.end(),
-                     {{z, 0, u * z}, {u * z, 0, z}, {z, u * z, 0}, {0, z, u * z}, {0, u * z, z}});
+      colors.insert(colors.end(),
+                    {{z, 0, u * z}, {u * z, 0, z}, {z, u * z, 0}, {0, z, u * z}, {0, u * z, z}});
     }
   }
-  return lanes_of(colours);
+  return lanes_of(colors);
 }
 
 TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
@@ -189,7 +189,7 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
   for (const char* space : {"srgb", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid("380:780:5", space);
     const kernels::SigmoidTable& table = upsampler.sigmoid()->table;
-    std::vector<Rgb> colours;
+    std::vector<Rgb> colors;
     for (int i = 0; i < 4000; ++i) {
       const float c[3] = {static_cast<float>(normal(random)), static_cast<float>(normal(random)),
                           static_cast<float>(normal(random))};
@@ -201,9 +201,9 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
           sum[k] += table.weights[4 * b + k] * (0.5 + 0.5 * x / std::sqrt(1 + x * x));
         }
       }
-      colours.push_back({static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])});
+      colors.push_back({static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])});
     }
-    EXPECT_EQ(unsolved(upsampler, lanes_of(colours)), 0U) << space;
+    EXPECT_EQ(unsolved(upsampler, lanes_of(colors)), 0U) << space;
   }
 }
 

@@ -29,7 +29,7 @@ void expect_exact(const Upsampler& upsampler, const ColorLanes& rgb) {
 }
 
 /// Colours of sigmoids in double: a band or a gap between two wavelengths, how steep its flanks are.
-ColorLanes colours_of_sigmoids(const Upsampler& upsampler, std::size_t lanes, double steepness) {
+ColorLanes colors_of_sigmoids(const Upsampler& upsampler, std::size_t lanes, double steepness) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
   const Projector projector = projector_of(upsampler);
@@ -88,7 +88,7 @@ TEST(SigmoidSpaces, TheLightsScaleDoesNotCount) {
   UpsamplerOptions other;
   one.light = *illuminant("A");
   other.light = one.light->scaled(1024);
-  const auto rgb = random_colours(65, 1);
+  const auto rgb = random_colors(65, 1);
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
     EXPECT_TRUE(same_lanes(spectra_of(sigmoid(quantity, Bands(), other), rgb),
                            spectra_of(sigmoid(quantity, Bands(), one), rgb)));
@@ -98,10 +98,10 @@ TEST(SigmoidSpaces, TheLightsScaleDoesNotCount) {
 TEST(SigmoidSpaces, WhatMayExceedOneIsExactlyHomogeneous) {
   for (const Quantity quantity : {Quantity::kUnbounded, Quantity::kIlluminant}) {
     const auto upsampler = sigmoid(quantity);
-    const auto rgb = random_colours(4099, 2);
+    const auto rgb = random_colors(4099, 2);
     const auto spectra = spectra_of(upsampler, rgb);
     for (const float factor : {2.0F, 0x1p-30F, 0x1p60F}) {
-      auto scaled = random_colours(4099, 2);
+      auto scaled = random_colors(4099, 2);
       for (std::size_t i = 0; i < 3 * scaled.lanes(); ++i) scaled.at(i / 3, i % 3) *= factor;
       const auto got = spectra_of(upsampler, scaled);
       for (std::size_t i = 0; i < rgb.lanes(); ++i) {
@@ -155,13 +155,13 @@ void expect_wide_gamut_returns(const char* space) {
   UpsamplerOptions options;
   options.primaries = rgb_space(space)->chromaticities;
   const auto upsampler = sigmoid(Quantity::kReflectance, *Bands::parse("380:780:5"), options);
-  const auto gentle = colours_of_sigmoids(upsampler, 1000, 1.0);
+  const auto gentle = colors_of_sigmoids(upsampler, 1000, 1.0);
   expect_exact(upsampler, gentle);
   expect_exact(upsampler, lanes_of({{0, 0, 0}, {0.5F, 0.5F, 0.5F}, {1, 1, 1}}));
   // The cube of sRGB in other coordinates; without its dark and bright ends, which float coordinates blur.
   const auto srgb = sigmoid(Quantity::kReflectance, *Bands::parse("380:780:5"));
   const Matrix3 matrix = product(inverse(upsampler.rgb_to_xyz()), srgb.rgb_to_xyz());
-  auto rgb = random_colours(2000, 3, 0.02F, 0.98F);
+  auto rgb = random_colors(2000, 3, 0.02F, 0.98F);
   for (std::size_t i = 0; i < rgb.lanes(); ++i) {
     const auto v = times(matrix, {rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)});
     for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = static_cast<float>(v[k]);
@@ -173,7 +173,7 @@ TEST(SigmoidSpaces, WideGamutColoursReturn) {
   for (const char* space : {"display-p3", "adobe-rgb"}) expect_wide_gamut_returns(space);
   // Colours outside the cube of sRGB itself.
   const auto srgb = sigmoid(Quantity::kReflectance);
-  const auto gentle = colours_of_sigmoids(srgb, 4099, 2.0);
+  const auto gentle = colors_of_sigmoids(srgb, 4099, 2.0);
   std::size_t outside = 0;
   for (std::size_t i = 0; i < gentle.lanes(); ++i) {
     const auto [least, greatest] = std::minmax({gentle.at(i, 0), gentle.at(i, 1), gentle.at(i, 2)});
@@ -206,7 +206,7 @@ TEST(SigmoidSpaces, ColoursThatNoReflectanceHasAreReported) {
 
 TEST(SigmoidSpaces, ColoursOutsideTheCubeReturnOrAreReported) {
   const auto upsampler = sigmoid(Quantity::kReflectance);
-  const auto rgb = random_colours(2000, 4, -0.2F, 1.2F);
+  const auto rgb = random_colors(2000, 4, -0.2F, 1.2F);
   std::size_t missed = 0;
   for (std::size_t i = 0; i < rgb.lanes(); ++i) {
     const auto one = lanes_of({{rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)}});

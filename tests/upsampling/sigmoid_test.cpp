@@ -37,7 +37,7 @@ ColorLanes near_white(std::size_t n, float part) {
 void expect_exact(const ColorLanes& rgb, const std::string& what, double difference = 1e-4) {
   SCOPED_TRACE(what);
   const RoundTrip result = round_trip(sigmoid(), rgb);
-  // What is asked for: 1e-5 and 1e-4. Float projection and matrix account for nearly all of what is measured.
+  // Required: 1e-5 and 1e-4. Float projection and matrix account for nearly all of what is measured.
   EXPECT_LE(result.rgb, 1e-6) << rgb.at(result.worst, 0) << " " << rgb.at(result.worst, 1) << " "
                               << rgb.at(result.worst, 2);
   EXPECT_LE(result.ciede2000, difference);
@@ -52,7 +52,7 @@ TEST(Sigmoid, TheCubesColoursReturn) {
 
 TEST(Sigmoid, TheCubesColoursReturnOnAFineGrid) {
   expect_exact(cube_grid(65), "65^3");
-  expect_exact(random_colours(200000, 1), "random");
+  expect_exact(random_colors(200000, 1), "random");
 }
 
 TEST(Sigmoid, ColoursNearBlackAndNearWhiteReturn) {
@@ -74,7 +74,7 @@ TEST(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
   for (const char* bands : {"380:780:5", "360:830:5", "400:700:10"}) {
     const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse(bands));
     const RoundTrip result = round_trip(upsampler, rgb);
-    // What is darker than the place of a sample's half comes back as the nearest that there is.
+    // Colours darker than the place of a sample's half come back as the nearest that there is.
     EXPECT_LE(result.rgb, 2e-6) << bands << ", lane " << result.worst;
     EXPECT_LE(result.ciede2000, 3e-3) << bands;
     EXPECT_EQ(coefficients_of(upsampler, rgb).unsolved.outside, 0U) << bands;
@@ -87,7 +87,7 @@ TEST(Sigmoid, EveryCodeOfEightBitsReturns) {
     const double v = code / 255.0;
     return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
   };
-  std::vector<Rgb> colours;
+  std::vector<Rgb> colors;
   for (std::uint32_t code = 0; code < 256; ++code) {
     for (const std::uint32_t a : {0U, 1U, 2U, 17U, 128U, 254U, 255U}) {
       for (const std::uint32_t b : {0U, 1U, 254U, 255U}) {
@@ -96,39 +96,39 @@ TEST(Sigmoid, EveryCodeOfEightBitsReturns) {
           rgb[k] = linear(code);
           rgb[(k + 1) % 3] = linear(a);
           rgb[(k + 2) % 3] = linear(b);
-          colours.push_back(rgb);
+          colors.push_back(rgb);
         }
       }
     }
   }
-  expect_exact(lanes_of(colours), "codes");
+  expect_exact(lanes_of(colors), "codes");
 }
 
 TEST(Sigmoid, ColoursWithinAUlpOfEachOtherReturn) {
   // On the axes' diagonals and the middle plane, where the search changes its ways.
-  std::vector<Rgb> colours;
+  std::vector<Rgb> colors;
   for (const float base : {0.01F, 0.25F, 0.5F, 0.75F, 0.99F}) {
     const float values[] = {std::nextafter(base, 0.0F), base, std::nextafter(base, 1.0F), 1 - base,
                             std::nextafter(1 - base, 1.0F)};
     for (const float r : values) {
       for (const float g : values) {
-        for (const float b : values) colours.push_back({r, g, b});
+        for (const float b : values) colors.push_back({r, g, b});
       }
     }
   }
   // A place of 0.5, in which the samples are computed, is worth 1e-4 at 0.01.
-  expect_exact(lanes_of(colours), "neighbours", 1.2e-4);
+  expect_exact(lanes_of(colors), "neighbours", 1.2e-4);
 }
 
 TEST(Sigmoid, GreysAreFlat) {
-  std::vector<Rgb> colours;
+  std::vector<Rgb> colors;
   for (int i = 0; i <= 4096; ++i) {
     const float v = static_cast<float>(i) / 4096;
-    colours.push_back({v, v, v});
+    colors.push_back({v, v, v});
   }
   for (const float v : {1e-12F, 1e-9F, 1e-6F, 1e-4F, 1 - 0x1p-24F, 1 - 1e-6F, 1 - 1e-4F})
-    colours.push_back({v, v, v});
-  const auto rgb = lanes_of(colours);
+    colors.push_back({v, v, v});
+  const auto rgb = lanes_of(colors);
   const auto spectra = spectra_of(sigmoid(), rgb);
   const auto c = coefficients_of(sigmoid(), rgb);
   for (std::size_t i = 0; i < rgb.lanes(); ++i) {
@@ -154,7 +154,7 @@ TEST(Sigmoid, BlackIsExactlyZeroAndWhiteExactlyOne) {
 }
 
 TEST(Sigmoid, OnlyRedsAndPurplesRiseAtTheEndsOfTheRange) {
-  // What is measured of the largest sample over the brightest component: 3.6, and for the others 574, always
+  // Measured: the largest sample over the brightest component: 3.6, and for the others 574, always
   // at the first or the last band, where the eye sees next to nothing.
   for (const float part : {1.0F, 0.1F, 0.01F, 1e-3F}) {
     const auto rgb = near_black(17, part);
@@ -202,21 +202,21 @@ TEST(Sigmoid, SamplesAreTheFormulasWithinTheirBound) {
 
 TEST(Sigmoid, HalfInverseRootIsWithinItsBound) {
   double worst = 0;
-  const auto look = [&](std::uint32_t bits) {
+  const auto check = [&](std::uint32_t bits) {
     const auto t = std::bit_cast<float>(bits);
     const double exact = 0.5 / std::sqrt(static_cast<double>(t));
     worst = std::max(worst, std::abs(static_cast<double>(reference::half_inverse_root(t)) / exact - 1));
   };
   for (std::uint32_t bits = 0x3F800000U; bits < 0x40800000U; bits += 3)
-    look(bits);  // 1 to 4: all there is to it
-  for (std::uint32_t bits = 0x40800000U; bits < 0x7D800000U; bits += 997) look(bits);  // to 2^124
+    check(bits);  // 1 to 4: all there is to it
+  for (std::uint32_t bits = 0x40800000U; bits < 0x7D800000U; bits += 997) check(bits);  // to 2^124
   EXPECT_LE(worst, 2.5 * 0x1p-24);
-  for (std::uint32_t bits = 0x7D800000U; bits <= 0x7E800000U; bits += 997) look(bits);  // to 2^126
+  for (std::uint32_t bits = 0x7D800000U; bits <= 0x7E800000U; bits += 997) check(bits);  // to 2^126
   EXPECT_LE(worst, 3.1 * 0x1p-24);
 }
 
 TEST(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {
-  auto rgb = random_colours(4099, 2);
+  auto rgb = random_colors(4099, 2);
   const auto clean = spectra_of(sigmoid(), rgb);
   for (std::size_t i = 0; i < rgb.lanes(); i += 3)
     rgb.at(i, i / 3 % 3) = i % 2 == 0 ? kNan : i % 4 == 1 ? kInf : -kInf;
@@ -233,7 +233,7 @@ TEST(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {
 }
 
 TEST(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
-  auto rgb = random_colours(4099, 3, -0.1F, 1.1F);
+  auto rgb = random_colors(4099, 3, -0.1F, 1.1F);
   const auto want = spectra_of(sigmoid(), rgb, {1, 16384});
   const auto coefficients_want = coefficients_of(sigmoid(), rgb, {1, 16384});
   for (const int threads : {1, 2, 5}) {
@@ -256,7 +256,7 @@ TEST(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
 
 TEST(Sigmoid, EveryLaneIsItsOwnForEverySize) {
   for (const std::size_t lanes : kSizes) {
-    const auto rgb = random_colours(lanes, 4, -0.2F, 1.2F);
+    const auto rgb = random_colors(lanes, 4, -0.2F, 1.2F);
     const auto spectra = spectra_of(sigmoid(), rgb);
     for (std::size_t i = 0; i<lanes; i += lanes> 100 ? 61 : 1) {
       const auto one = spectra_of(sigmoid(), lanes_of({{rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)}}));
@@ -266,7 +266,7 @@ TEST(Sigmoid, EveryLaneIsItsOwnForEverySize) {
 }
 
 TEST(Sigmoid, BatchesThatDoNotFitAreErrors) {
-  const auto rgb = random_colours(17, 5);
+  const auto rgb = random_colors(17, 5);
   auto c = *CoefficientLanes::create(sigmoid(), 16);
   EXPECT_EQ(code_of(coefficients(sigmoid(), rgb.view(), c)), code(ErrorCode::kSizeMismatch));
   auto spectra = *SampledSpectra::create(Bands(), 17);

@@ -14,7 +14,7 @@ Upsampler smits(NegativeSamples negative = NegativeSamples::kClampToZero, const 
   return *Upsampler::create(Method::kSmits, Quantity::kReflectance, bands, negative);
 }
 
-ColorLanes colours(std::size_t lanes, const Floats& values) {
+ColorLanes colors(std::size_t lanes, const Floats& values) {
   auto rgb = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = values[(3 * i + k) % values.size()];
@@ -81,7 +81,7 @@ TEST(SmitsBatches, EveryLaneIsItsOwnForEverySize) {
   const Floats values = plain_floats(3 * 4099, 5, -0.2F, 1.0F);
   auto one_lane = *SampledSpectra::create(Bands(), 1);
   for (const std::size_t lanes : kSizes) {
-    const auto rgb = colours(lanes, values);
+    const auto rgb = colors(lanes, values);
     auto spectra = *SampledSpectra::create(Bands(), lanes);
     ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), spectra.span()));
     for (std::size_t i = 0; i<lanes; i += lanes> 100 ? 7 : 1) {
@@ -98,7 +98,7 @@ TEST(SmitsBatches, XyzGoesByWayOfLinearSrgb) {
   for (const NegativeSamples negative : {NegativeSamples::kClampToZero, NegativeSamples::kKeep}) {
     const auto upsampler = smits(negative);
     for (const std::size_t lanes : kSizes) {
-      const auto xyz = colours(lanes, arbitrary_floats(10007, 6));
+      const auto xyz = colors(lanes, arbitrary_floats(10007, 6));
       auto rgb = *ColorLanes::create(lanes);
       ASSERT_TRUE(xyz_to_srgb(xyz.view(), rgb.span()));
       auto want = *SampledSpectra::create(Bands(), lanes);
@@ -113,7 +113,7 @@ TEST(SmitsBatches, XyzGoesByWayOfLinearSrgb) {
 TEST(SmitsBatches, XyzIsWithinItsBoundOfTheOracle) {
   const auto upsampler = smits();
   const std::vector<std::array<double, 7>> basis(upsampler.basis().begin(), upsampler.basis().end());
-  const auto xyz = colours(1500, plain_floats(4500, 7));
+  const auto xyz = colors(1500, plain_floats(4500, 7));
   auto spectra = *SampledSpectra::create(Bands(), 1500);
   ASSERT_TRUE(upsample_xyz(upsampler, xyz.view(), spectra.span()));
   for (std::size_t i = 0; i < 1500; ++i) {
@@ -135,7 +135,7 @@ TEST(SmitsBatches, ThreadsTilesAndStoresDoNotChangeBits) {
   for (const Method method : {Method::kSmits, Method::kSmits1999}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, bands);
-      const auto rgb = colours(kLanes, arbitrary_floats(100003, 8));
+      const auto rgb = colors(kLanes, arbitrary_floats(100003, 8));
       auto want = *SampledSpectra::create(bands, kLanes);
       auto want_xyz = *SampledSpectra::create(bands, kLanes);
       ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), StoreHint::kCached, {1, kLanes}));
@@ -155,9 +155,9 @@ TEST(SmitsBatches, ThreadsTilesAndStoresDoNotChangeBits) {
 }
 
 TEST(SmitsBatches, BatchesBeyondTheCachesHaveTheSameBits) {
-  constexpr std::size_t kLanes = 300001;  // 69 MiB, which kAuto stores round the caches
+  constexpr std::size_t kLanes = 300001;  // 69 MiB, which kAuto stores non-temporally
   const auto upsampler = smits();
-  const auto rgb = colours(kLanes, plain_floats(900007, 9, -0.1F, 1.0F));
+  const auto rgb = colors(kLanes, plain_floats(900007, 9, -0.1F, 1.0F));
   auto want = *SampledSpectra::create(Bands(), kLanes);
   auto got = *SampledSpectra::create(Bands(), kLanes);
   ASSERT_TRUE(upsample_srgb(upsampler, rgb.view(), want.span(), StoreHint::kCached));

@@ -24,7 +24,7 @@ void for_every_kind(F f, NegativeSamples negative = NegativeSamples::kClampToZer
   }
 }
 
-ColorLanes colours(std::size_t lanes, const Floats& values) {
+ColorLanes colors(std::size_t lanes, const Floats& values) {
   auto rgb = *ColorLanes::create(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = values[(3 * i + k) % values.size()];
@@ -118,7 +118,7 @@ TEST(Smits, SpectraAreWithinTheirBoundOfTheOracle) {
           const auto basis = basis_of(upsampler);
           const double largest = largest_basis_value(upsampler);
           for (const float low : {0.0F, -1.0F}) {
-            const auto rgb = colours(1500, plain_floats(4500, 1, low, 1.0F));
+            const auto rgb = colors(1500, plain_floats(4500, 1, low, 1.0F));
             const auto spectra = upsampled(upsampler, rgb);
             for (std::size_t i = 0; i < rgb.lanes(); ++i) {
               const std::array<double, 3> c = {rgb.at(i, 0), rgb.at(i, 1), rgb.at(i, 2)};
@@ -193,7 +193,7 @@ TEST(Smits, CornersOfTheCubeAreTheBasesThemselves) {
 
 TEST(Smits, TwiceTheColourIsExactlyTwiceTheSpectrum) {
   for_every_kind([](const Upsampler& upsampler) {
-    const auto rgb = colours(65, plain_floats(195, 2));
+    const auto rgb = colors(65, plain_floats(195, 2));
     auto twice = *ColorLanes::create(65);
     for (std::size_t i = 0; i < 65; ++i) {
       for (std::size_t k = 0; k < 3; ++k) twice.at(i, k) = 2 * rgb.at(i, k);
@@ -207,7 +207,7 @@ TEST(Smits, TwiceTheColourIsExactlyTwiceTheSpectrum) {
 }
 
 TEST(Smits, ClampedSamplesAreNeverBelowZeroAndKeptOnesSometimesAre) {
-  const auto rgb = colours(4099, plain_floats(12297, 3, -0.5F, 1.0F));
+  const auto rgb = colors(4099, plain_floats(12297, 3, -0.5F, 1.0F));
   const auto least_of = [&](const Upsampler& upsampler) {
     const auto spectra = upsampled(upsampler, rgb);
     float least = kInf;

@@ -12,7 +12,7 @@ using AverageErrors = test::AverageFiles;
 using test::kPlain;
 using test::weighted;
 
-TEST_F(AverageErrors, WholeNumbersMustAgree) {
+TEST_F(AverageErrors, IntegersMustAgree) {
   test::Picture other = render(1);
   other.planes.at("id").set(other.index(30, 25), 77);
   other.planes.at("id").set(other.index(2, 26), 78);

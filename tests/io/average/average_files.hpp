@@ -18,7 +18,7 @@ inline const AverageOptions kPlain;  // named, as kUpsample is
 /// Images to average, and what becomes of them.
 class AverageFiles : public testing::Test {
  protected:
-  /// An image of noise, other with every seed: R, G, B, a spectral channel, and one of whole numbers.
+  /// An image of noise, other with every seed: R, G, B, a spectral channel, and one of integers.
   static test::Picture render(int seed, Imf::PixelType type = Imf::FLOAT, Imath::V2i origin = {0, 0}) {
     test::Picture picture = test::blank(37, 41, origin);
     for (const char* name : {"R", "G", "B", "S0.402,500000nm"}) {

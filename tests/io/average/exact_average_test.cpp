@@ -119,7 +119,7 @@ TEST(ExactAverage, IsTheExactOneRoundedOnce) {
   }
 }
 
-/// The quotient has the fewest bits then, and what remains of the division decides many roundings.
+/// The ratio has the fewest bits then, and what remains of the division decides many roundings.
 TEST(ExactAverage, IsRoundedOnceUnderTheLargestWeightsToo) {
   std::mt19937_64 random(17);
   for (int trial = 0; trial < 20000; ++trial) {

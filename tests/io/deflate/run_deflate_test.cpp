@@ -1,4 +1,4 @@
-// What RunDeflate writes is deflate, and gives its input back.
+// The output of RunDeflate is deflate, and gives its input back.
 #include "src/io/deflate/run_deflate.hpp"
 
 #include <gtest/gtest.h>

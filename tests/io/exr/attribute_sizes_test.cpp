@@ -24,7 +24,7 @@ class AttributeSizes : public testing::Test {
     good_ = test::file_bytes(path_);
   }
 
-  /// What is said of the file with the four bytes `at` bytes after the text `name` replaced.
+  /// The error for the file with the four bytes `at` bytes after the text `name` replaced.
   std::string said_of(const std::string& name, std::size_t at, std::uint32_t number) {
     std::string bytes = good_;
     const std::size_t found = bytes.find(name);

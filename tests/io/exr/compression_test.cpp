@@ -23,7 +23,7 @@ Imf::Compression in_file(CompressionKind kind) {
   return kMethods[static_cast<std::size_t>(kind)];
 }
 
-/// Whether a spectral channel comes back to the bit: DWA loses only in R, G, B and Y, B44 only in half, PXR24
+/// True if a spectral channel comes back to the bit: DWA loses only in R, G, B and Y, B44 only in half, PXR24
 /// in float.
 bool keeps_bits(CompressionKind kind, PixelType pixel) {
   switch (kind) {

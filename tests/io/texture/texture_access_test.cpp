@@ -1,4 +1,4 @@
-// What a texture reads, from whom it may be asked, and what it refuses.
+// Access to textures: which pixels are read, from many threads, and errors.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

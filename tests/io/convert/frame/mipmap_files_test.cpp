@@ -1,4 +1,4 @@
-// Mip levels as files: compressions, whole numbers, memory, what is refused, attributes, files cut short.
+// Mip levels as files: compressions, integers, memory, what is refused, attributes, files cut short.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,14 +45,14 @@ TEST_F(Mipmap, WorkWithEveryCompression) {
           error = std::max(error, std::abs(plane.at(p) - exact.at(p)));
         }
       }
-      // What is lost of noise is lost of its averages too, but no more.
+      // The loss of noise is a loss of its averages too, but no more.
       if (i == 0) first_error = error;
       EXPECT_LE(error, first_error) << "level " << i;
     }
   }
 }
 
-TEST_F(Mipmap, WholeNumbersAreThoseNearestToTheCentre) {
+TEST_F(Mipmap, IntegersAreThoseNearestToTheCentre) {
   make(37, 23);
   UpsampleImageOptions options;
   options.mipmap = true;

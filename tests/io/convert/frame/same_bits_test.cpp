@@ -10,15 +10,15 @@ namespace spectile {
 namespace {
 
 /// One way to run a conversion.
-struct Way {
+struct Setting {
   std::string isa;
   int threads;
   std::size_t tile_lanes;
 };
 
 /// Every way there is on this machine.
-std::vector<Way> all_ways() {
-  std::vector<Way> out;
+std::vector<Setting> all_settings() {
+  std::vector<Setting> out;
   for (const std::string& isa : available_isas()) {
     for (const int threads : {1, 2}) {
       for (const std::size_t tile : {256U, 4096U, 65536U}) out.push_back({isa, threads, tile});
@@ -28,8 +28,8 @@ std::vector<Way> all_ways() {
 }
 
 /// Every instruction set, every thread count and every tile size, but not every combination.
-std::vector<Way> some_ways() {
-  std::vector<Way> out;
+std::vector<Setting> some_settings() {
+  std::vector<Setting> out;
   const std::size_t tiles[] = {256, 4096, 65536};
   std::size_t i = 0;
   for (const std::string& isa : available_isas()) {
@@ -46,16 +46,16 @@ class SameBits : public testing::Test {
   ~SameBits() override { static_cast<void>(force_isa("")); }
 
   /// Puts a way in force; a test that forces an instruction set fails when that one does not run.
-  static void force(const Way& way, ImageOptions& options) {
-    ASSERT_TRUE(force_isa(way.isa));
-    ASSERT_EQ(*active_isa(), way.isa);
-    options.threads = way.threads;
-    options.tile_lanes = way.tile_lanes;
+  static void force(const Setting& setting, ImageOptions& options) {
+    ASSERT_TRUE(force_isa(setting.isa));
+    ASSERT_EQ(*active_isa(), setting.isa);
+    options.threads = setting.threads;
+    options.tile_lanes = setting.tile_lanes;
   }
 
   /// Converts each way and compares all channels with those of the first; false for a file that cannot be
   /// converted.
-  static bool check(const std::string& input, const std::vector<Way>& ways, const Bands& bands) {
+  static bool check(const std::string& input, const std::vector<Setting>& settings, const Bands& bands) {
     const test::TempFolder folder;
     UpsampleImageOptions up;
     up.bands = bands;
@@ -65,7 +65,7 @@ class SameBits : public testing::Test {
     down.nonfinite = NonFinite::kZero;
     down.pixel = PixelType::kFloat;
     down.compression = up.compression;
-    const Way plain = {"scalar", 1, 1024};
+    const Setting plain = {"scalar", 1, 1024};
     force(plain, up);
     force(plain, down);
     if (!upsample_image(input, folder / "spectral.exr", up)) return false;
@@ -75,11 +75,11 @@ class SameBits : public testing::Test {
     const test::Picture spectral = test::read_picture(folder / "spectral.exr");
     const test::Picture rgb = test::read_picture(folder / "rgb.exr");
     EXPECT_EQ(spectral.planes.size() - read_channel_count(input), bands.count()) << input;
-    for (const Way& way : ways) {
-      const std::string what = input + " " + way.isa + ", " + std::to_string(way.threads) +
-                               " threads, tiles of " + std::to_string(way.tile_lanes);
-      force(way, up);
-      force(way, down);
+    for (const Setting& setting : settings) {
+      const std::string what = input + " " + setting.isa + ", " + std::to_string(setting.threads) +
+                               " threads, tiles of " + std::to_string(setting.tile_lanes);
+      force(setting, up);
+      force(setting, down);
       EXPECT_TRUE(upsample_image(input, folder / "other.exr", up)) << what;
       EXPECT_TRUE(test::read_picture(folder / "other.exr").planes == spectral.planes) << what;
       EXPECT_TRUE(project_image(folder / "spectral.exr", folder / "other.exr", down)) << what;
@@ -95,11 +95,11 @@ class SameBits : public testing::Test {
     return picture.planes.contains("R") ? picture.planes.size() : picture.planes.size() + 2;
   }
 
-  static void check_all(const std::vector<Way>& ways) {
+  static void check_all(const std::vector<Setting>& settings) {
     const auto bands = Bands::uniform(400, 700, 18.75);
     int converted = 0;
     for (const std::string& input : test::shared_files("rgb"))
-      converted += check(input, ways, *bands) ? 1 : 0;
+      converted += check(input, settings, *bands) ? 1 : 0;
     // All but the one that has no red and no blue.
     EXPECT_EQ(converted, static_cast<int>(test::shared_files("rgb").size()) - 1);
   }
@@ -111,25 +111,25 @@ TEST_F(SameBits, OddImageAwayFromTheOrigin) {
   test::add_rgb_noise(picture, Imf::HALF, 3);
   picture.add("A", Imf::HALF, [](int x, int y) { return test::noise(x, y, 9); });
   test::write_scanlines(folder / "in.exr", picture);
-  EXPECT_TRUE(check(folder / "in.exr", all_ways(), *Bands::uniform(400, 700, 18.75)));
-  EXPECT_TRUE(check(folder / "in.exr", all_ways(), Bands()));
+  EXPECT_TRUE(check(folder / "in.exr", all_settings(), *Bands::uniform(400, 700, 18.75)));
+  EXPECT_TRUE(check(folder / "in.exr", all_settings(), Bands()));
 }
 
 TEST_F(SameBits, EveryRealImage) {
   SPECTILE_NEEDS_IMAGES("rgb");
-  check_all(some_ways());
+  check_all(some_settings());
 }
 
 TEST_F(SameBits, SixtyBandsOfTwoRealImages) {
   SPECTILE_NEEDS_IMAGES("rgb");
   for (const char* name : {"Carrots.exr", "t08.exr"}) {
-    EXPECT_TRUE(check((test::shared_images("rgb") / name).string(), all_ways(), Bands())) << name;
+    EXPECT_TRUE(check((test::shared_images("rgb") / name).string(), all_settings(), Bands())) << name;
   }
 }
 
 TEST_F(SameBits, EveryRealImageEveryWay) {
   SPECTILE_NEEDS_IMAGES("rgb");
-  check_all(all_ways());
+  check_all(all_settings());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is wrong with an image of coefficients is said in one clear error, and no output appears.
+// A faulty image of coefficients gives one clear error, and no output appears.
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

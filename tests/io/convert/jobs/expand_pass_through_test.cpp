@@ -1,4 +1,4 @@
-// What a compact image holds beside its coefficients comes through expansion as it went in.
+// Channels and attributes of a compact image beside its coefficients come through expansion as they went in.
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>

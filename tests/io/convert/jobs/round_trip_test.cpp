@@ -16,7 +16,7 @@ using Triple = std::array<double, 3>;
 
 constexpr double kRounding = 0x1p-24;  // relative error of one float operation
 
-/// What the oracle makes of a picture's R, G, B, and how far the library may be from it.
+/// The oracle's result for a picture's R, G, B, and the library's bound around it.
 struct Expected {
   std::vector<Triple> rgb;
   std::vector<Triple> bound;
@@ -39,7 +39,7 @@ Expected expect(const test::Picture& picture, const Bands& bands, bool half_samp
     for (const double v : band) largest_basis = std::max(largest_basis, std::abs(v));
   }
   const double sums = static_cast<double>(bands.count() + 2) + 4;
-  // sRGB's white is D65 as the bands see it: each component over that of a white reflector.
+  // sRGB's white is D65 as the bands see it: each component over that of a perfect diffuser.
   const Triple white = oracle::xyz_to_srgb(oracle::project(weights, std::vector<double>(bands.count(), 1.0)));
   Matrix3 m = xyz_to_srgb_matrix();
   for (std::size_t i = 0; i < 9; ++i) m[i] /= white[i / 3];

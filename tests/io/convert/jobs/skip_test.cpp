@@ -1,4 +1,4 @@
-// What upsample_image skips changes no byte of its file, and is counted.
+// Work that upsample_image skips changes no byte of its file, and is counted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

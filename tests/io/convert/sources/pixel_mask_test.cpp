@@ -20,7 +20,7 @@ class PixelMasks : public testing::Test {
     options_.bands = *Bands::uniform(400, 700, 25);
   }
 
-  /// Whether every band is 0 at a pixel.
+  /// True if every band is 0 at a pixel.
   static bool black(const test::Picture& got, int x, int y) {
     int zeros = 0;
     int bands = 0;

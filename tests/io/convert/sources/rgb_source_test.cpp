@@ -65,7 +65,7 @@ TEST_F(RgbSourceImages, FloatOfHalfValuesEqualsHalf) {
   EXPECT_TRUE(upsampled(folder_ / "mixed.exr") == expected);
 }
 
-TEST_F(RgbSourceImages, WholeNumbersAreTakenAsTheyAre) {
+TEST_F(RgbSourceImages, IntegersAreTakenAsTheyAre) {
   test::Picture uints = test::blank(67, 5);
   test::Picture floats = test::blank(67, 5);
   int channel = 0;
@@ -211,7 +211,7 @@ TEST_F(RgbSourceImages, LuminanceAndChromaIsWhatOpenExrMakesOfIt) {
     file.setFrameBuffer(pixels.data(), 1, width);
     file.writePixels(height);
   }
-  // What OpenEXR itself reads, as plain R, G, B.
+  // As OpenEXR itself reads it, as plain R, G, B.
   std::vector<Imf::Rgba> read(pixels.size());
   Imf::RgbaInputFile file((folder_ / "yc.exr").c_str());
   file.setFrameBuffer(read.data(), 1, width);
