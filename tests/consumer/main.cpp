@@ -1,7 +1,10 @@
-// A program that knows only the installed package: one red pixel becomes a spectrum and comes back.
+// A program that knows only the installed package: one red pixel becomes a spectrum and comes back, and the
+// benchmark suite links.
 #include <cmath>
 #include <cstdio>
+#include <spectile/bench/benchmark.hpp>
 #include <spectile/spectile.hpp>
+#include <string>
 
 int main() {
   using namespace spectile;
@@ -20,5 +23,8 @@ int main() {
   if (!xyz_to_srgb(xyz->view(), rgb->span())) return 1;
   std::printf("red comes back as %.4f %.4f %.4f\n", static_cast<double>(rgb->at(0, 0)),
               static_cast<double>(rgb->at(0, 1)), static_cast<double>(rgb->at(0, 2)));
+  BenchmarkReport report;
+  report.machine.processor = "none";
+  if (benchmark_to_json(report).find("\"none\"") == std::string::npos) return 1;
   return std::abs(rgb->at(0, 0) - 1.0F) < 0.03F ? 0 : 1;
 }
