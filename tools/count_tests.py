@@ -8,7 +8,7 @@ import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
-ENTRY = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) \.*\s*(Passed|\*\*\*(?:Exception: )?\w+(?: \w+)?)", re.MULTILINE)
+ENTRY = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) [. ]*(Passed|[\w ]*\*\*\*[\w ]+)", re.MULTILINE)
 
 
 def main():
@@ -27,8 +27,8 @@ def main():
             names += [f"{entry.split('.')[0]}.{case.get('name')}" for case in skips]
         else:
             cases = [entry]
-            failures = 0 if result == "Passed" or result.startswith("***Skipped") else 1
             skips = cases if result.startswith("***Skipped") else []
+            failures = 0 if result == "Passed" or skips else 1
             names += skips
         passed += len(cases) - failures - len(skips)
         failed += failures
