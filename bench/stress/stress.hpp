@@ -26,4 +26,13 @@ Result<std::vector<StressResult>> stress_operations(const StressSettings& settin
 /// Everything but operations on lanes: films, averages over bands, weights, matrices, colour differences.
 Result<std::vector<StressResult>> stress_others(const StressSettings& settings);
 
+/// Counts one case of a result, and keeps the worst.
+void add_case(StressResult& result, double error, const std::string& description);
+StressResult stress_heading(std::string inputs, std::string unit, double bound);
+
+// Parts of stress_others().
+Result<StressResult> stress_film_counts(const StressSettings& settings);
+Result<StressResult> stress_film_cancellation(const StressSettings& settings);
+Result<StressResult> stress_film_samples(const StressSettings& settings);
+
 }  // namespace spectile::measure
