@@ -1,6 +1,8 @@
 // A film's samples a second by the order in which they arrive, beside the AoS baseline's film and plain sums.
 #include "bench/baseline/film_orders.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 #include <limits>
@@ -123,6 +125,24 @@ class Films {
 
 enum class Comparison { kFilm, kPlainSums, kDrawing, kBuckets };
 
+std::string row_name(Comparison comparison, const std::string& order) {
+  const char* const names[] = {"film", "film against plain double sums", "film, wavelengths drawn",
+                               "film, 60 buckets"};
+  return fmt::format("{}, {}", names[static_cast<int>(comparison)], order);
+}
+
+/// True if a row's name contains one of these, or there are none.
+bool any_chosen(const std::vector<std::string>& only) {
+  for (const Comparison c :
+       {Comparison::kFilm, Comparison::kPlainSums, Comparison::kDrawing, Comparison::kBuckets}) {
+    for (const char* order :
+         {"tile, 1 a visit", "tile, 4 a visit", "tile, 16 a visit", "scanline", "random"}) {
+      if (is_chosen(row_name(c, order), only)) return true;
+    }
+  }
+  return false;
+}
+
 /// A row of the report while it is measured.
 struct Row {
   std::string name;
@@ -147,7 +167,6 @@ void add_row(std::deque<Row>& rows, Films& films, const ArrivalOrder& order, Com
   row.comparison = comparison;
   row.engine = films.engine_add();
   Add tuned;
-  std::string name = "film";
   switch (comparison) {
     case Comparison::kFilm:
       row.baseline = films.aos_add(aos.film_add);
@@ -155,19 +174,16 @@ void add_row(std::deque<Row>& rows, Films& films, const ArrivalOrder& order, Com
       break;
     case Comparison::kPlainSums:
       row.baseline = films.plain_add();
-      name = "film against plain double sums";
       break;
     case Comparison::kDrawing:
       row.engine = films.engine_draw();
       row.baseline = films.aos_add(aos.film_add_drawing);
-      name = "film, wavelengths drawn";
       break;
     case Comparison::kBuckets:
       row.baseline = films.aos_add(aos.film_add_buckets);
-      name = "film, 60 buckets";
       break;
   }
-  row.name = name + ", " + order.name;
+  row.name = row_name(comparison, order.name);
   if (!is_chosen(row.name, only)) return;
   row.engine_time.run = [&order, add = row.engine] { pass(order, add); };
   row.baseline_time.run = [&order, add = row.baseline] { pass(order, add); };
@@ -221,6 +237,7 @@ double moved_bytes(const Row& row) {
 }  // namespace
 
 Result<std::vector<BaselineSpeed>> measure_film_orders(const FilmOrderSettings& s) {
+  if (!any_chosen(s.only)) return std::vector<BaselineSpeed>();
   const int part = s.quick ? 3 : 1;
   const int width = 1920 / part;
   const int height = 1080 / part;

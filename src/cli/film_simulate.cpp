@@ -169,6 +169,8 @@ void report(const Arguments& a, const Run& run, const SceneError& error, const F
                                 {"mean_luminance", error.mean_luminance},
                                 {"rms_luminance_error", error.rms_luminance},
                                 {"rms_xyz_error", error.rms_xyz},
+                                {"mean_radiance", error.mean_radiance},
+                                {"rms_spectrum_error", error.rms_spectrum},
                                 {"bytes_written", saved.bytes_written},
                                 {"seconds", seconds}};
     fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -88,6 +88,34 @@ Result<void> simulate(const ProceduralScene& scene, const SceneSampling& samplin
   return result;
 }
 
+namespace {
+
+/// The errors of a film's spectra on its bands.
+Result<void> add_spectrum_error(const ProceduralScene& scene, const Film& film, const Execution& execution,
+                                SceneError& to) {
+  SPECTILE_ASSIGN(auto spectrum, FilmDevelopment::create(film, FilmLayer::kSpectrum));
+  SPECTILE_TRY(spectrum.update(execution));
+  const PixelWindow w = film.window();
+  double squares = 0;
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      const std::vector<double> exact = scene.spectrum(film.options(), x, y);
+      for (std::size_t b = 0; b < exact.size(); ++b) {
+        const double error = static_cast<double>(spectrum.at(b, x, y)) - exact[b];
+        to.mean_radiance += exact[b];
+        squares += error * error;
+      }
+    }
+  }
+  const double values =
+      static_cast<double>(w.width()) * w.height() * static_cast<double>(film.options().bands.count());
+  to.mean_radiance /= values;
+  to.rms_spectrum = std::sqrt(squares / values);
+  return {};
+}
+
+}  // namespace
+
 Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
                                     const Execution& execution) {
   SPECTILE_ASSIGN(auto xyz, FilmDevelopment::create(film, FilmLayer::kXyz));
@@ -132,6 +160,7 @@ Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& fi
   out.mean_luminance /= pixels;
   out.rms_luminance = std::sqrt(squares_y / pixels);
   out.rms_xyz = std::sqrt(squares / (3 * pixels));
+  if (film.options().spectral) SPECTILE_TRY(add_spectrum_error(scene, film, execution, out));
   return out;
 }
 

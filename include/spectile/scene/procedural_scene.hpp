@@ -100,6 +100,8 @@ struct SceneError {
   double mean_luminance = 0;       ///< of the exact values
   double rms_luminance = 0;        ///< root of the mean square of the differences in Y
   double rms_xyz = 0;              ///< the same over all three
+  double mean_radiance = 0;        ///< of the exact spectra on the film's bands, 0 where it keeps none
+  double rms_spectrum = 0;         ///< root of the mean square of the differences on the bands
   double largest_relative = 0;     ///< of Y, where the exact value is not 0
   std::uint64_t black_pixels = 0;  ///< exactly 0 as they should be
   std::uint64_t wrong_black = 0;   ///< that are not 0 and should be, or the other way round
