@@ -31,7 +31,7 @@ ROOMS = [
     ("io/deflate", "src/io/deflate", "base"),
     ("io/exr", "src/io/exr", "base abi dispatch lanes image io/deflate"),
     ("io/text", "src/io/text", "base data spectra planner image"),
-    ("io/frame", "src/io/convert/frame", "base abi dispatch lanes planner image io/exr"),
+    ("io/frame", "src/io/convert/frame", "base spectra abi reference dispatch lanes planner image io/exr"),
     ("io/sources", "src/io/convert/sources",
      "base spectra dispatch lanes color upsampling planner image io/exr io/text io/frame"),
     ("io/stages", "src/io/convert/stages",
