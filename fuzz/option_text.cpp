@@ -10,7 +10,7 @@
 #include <spectile/spectra/named_spectra.hpp>
 
 #include "fuzz/support.hpp"
-#include "src/cli/option_texts.hpp"
+#include "src/cli/options/parse.hpp"
 
 namespace {
 

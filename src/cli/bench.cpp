@@ -9,7 +9,9 @@
 #include <spectile/bench/benchmark.hpp>
 #include <system_error>
 
-#include "src/cli/common.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -244,46 +246,44 @@ int run(const Arguments& a) {
 
 void add_bench(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench",
-      "Measures this machine: what it can do at most, how near each operation comes to that and how\n"
-      "wrong it is, what each method costs in time and in error, and whether the numbers\n"
-      "hold over the whole range of float. Takes minutes; a machine busy with other work is said to be.\n"
-      "Exit code 1 where a number is beyond its stated bound.");
-  command->add_flag("--quick", a->quick,
-                    "half a minute: the fastest instruction set in memory, fewer methods and rounds");
-  auto* stress = command->add_flag("--stress", a->stress, "the numbers' stress test in its long form too");
-  command->add_flag("--stress-only", a->stress_only, "run only the stress test")->excludes(stress);
-  command->add_flag("--json", a->json, "print the whole report as JSON");
-  command->add_option("--report", a->report, "write the report as one page of HTML, with its plots")
-      ->type_name("OUT.html");
-  command
-      ->add_option(
-          "--plot", a->plot,
-          "write one plot as SVG: samples to a film, error against time, under the first light with lines")
-      ->type_name("OUT.svg");
-  command->add_option("--threads", a->threads, "numbers of threads to measure (1, 2, 4 ... up to the cores)")
+  CLI::App* command = app.add_subcommand("bench", "Measure limits, throughput and error on this machine");
+  const auto option = [command](const char* flag, auto& value, const char* type, const char* group,
+                                const char* text) {
+    return command->add_option(flag, value, text)->type_name(type)->group(group);
+  };
+  const auto flag = [command](const char* name, bool& value, const char* group, const char* text) {
+    return command->add_flag(name, value, text)->group(group);
+  };
+  option("--report", a->report, "FILE", kFilesGroup, "Write the report as one page of HTML, with its plots");
+  option("--plot", a->plot, "FILE", kFilesGroup, "Write one plot as SVG: error against time of film samples");
+  option("--reflectances", a->reflectances, "FILE", kFilesGroup,
+         "Measured reflectances to evaluate errors on; the ColorChecker by default");
+  constexpr const char* kMeasured = "Measurements";
+  flag("--quick", a->quick, kMeasured,
+       "Half a minute: the fastest instruction set, fewer methods and rounds");
+  CLI::Option* const stress = flag("--stress", a->stress, kMeasured, "Also run the long stress test");
+  flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test")->excludes(stress);
+  flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");
+  option("--only", a->only, "TEXT", kMeasured, "Only operations whose name contains this; no methods");
+  option("--illuminant", a->lights, "NAME", kMeasured,
+         "Illuminants of the methods; D65,A,FL11,HP1 by default")
+      ->delimiter(',');
+  option("--threads", a->threads, "N", kMeasured,
+         "Numbers of threads; 1, 2, 4 ... up to the cores by default")
+      ->delimiter(',');
+  option("--isa", a->isas, "NAME", kMeasured, "Instruction sets; all that run here by default")
+      ->delimiter(',');
+  option("--seed", a->seed, "N", kMeasured, "Random seed of the inputs")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N")
-      ->delimiter(',');
-  command->add_option("--isa", a->isas, "instruction sets to measure (all that run here)")
-      ->type_name("NAME")
-      ->delimiter(',');
-  command->add_option("--illuminant", a->lights, "lights for the methods (D65, A, FL11, HP1)")
-      ->type_name("NAME")
-      ->delimiter(',');
-  command
-      ->add_option("--reflectances", a->reflectances,
-                   "files of measured reflectances that errors are over (the 24 of the ColorChecker)")
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--only", a->only,
-          "only operations whose name contains this ('' for all), and no methods; stress only where it "
-          "is asked for")
-      ->type_name("TEXT");
-  command->add_flag("--cache-only", a->cache_only, "operations in the caches, not in memory");
-  command->add_option("--seed", a->seed, "of the inputs (1)")->type_name("N")->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", a->quiet, "no progress bar");
+      ->capture_default_str();
+  flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
+  flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
+  command->get_help_ptr()->group(kRunGroup);
+  command->footer(
+      "Example:\n  spectile bench --quick --report bench.html\n"
+      "Takes minutes. The report says where other work disturbed it (docs/performance.md).\n"
+      "Exit code 1: a result is beyond its stated bound.");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

@@ -7,7 +7,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "src/cli/common.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/output/plot.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -60,15 +63,15 @@ Result<ColorLanes> make_chart() {
 /// Mean and largest absolute difference over all components.
 std::array<double, 2> differences(const RgbImage& a, const RgbImage& b) {
   double sum = 0;
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < a.rgb.lanes(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double d = std::abs(static_cast<double>(a.rgb.at(i, k)) - static_cast<double>(b.rgb.at(i, k)));
       sum += d;
-      most = std::max(most, d);
+      maximum = std::max(maximum, d);
     }
   }
-  return {sum / (3.0 * static_cast<double>(a.rgb.lanes())), most};
+  return {sum / (3.0 * static_cast<double>(a.rgb.lanes())), maximum};
 }
 
 int run(const Arguments& a) {
@@ -111,7 +114,7 @@ int run(const Arguments& a) {
   if (!before) return complain(before.error());
   const auto after = read_rgb_image(back_path, {}, a.common.threads);
   if (!after) return complain(after.error());
-  const auto [mean, most] = differences(*before, *after);
+  const auto [mean, maximum] = differences(*before, *after);
 
   if (a.common.json) {
     const nlohmann::json out = {
@@ -124,8 +127,8 @@ int run(const Arguments& a) {
         {"different_samples", verified->different_samples},
         {"oracle_difference", verified->max_oracle_difference},
         {"round_trip_mean", mean},
-        {"round_trip_max", most}};
-    fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        {"round_trip_max", maximum}};
+    print_json(out);
   } else if (!a.common.quiet) {
     fmt::print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
     fmt::print(
@@ -137,8 +140,9 @@ int run(const Arguments& a) {
     fmt::print("{}: projected back under D65, {}\n", back_path,
                speed_text(projected->pixels(), projected->seconds));
     fmt::print(
-        "round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: what the method loses\n", mean,
-        most);
+        "round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: error of the method and of "
+        "16-bit rounding\n",
+        mean, maximum);
     const std::array<int, 2> at = {kWidth / 6 + 40, kHeight / 8};
     const auto info = inspect_image(spectral_path, at, a.common.threads);
     if (!info) return complain(info.error());
@@ -153,9 +157,11 @@ int run(const Arguments& a) {
 void add_demo(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "demo", "Make a chart, upsample it, project it back; show the error and the speed of each step");
-  command->add_option("DIR", a->directory, "Where the three images go")->capture_default_str();
-  add_common(*command, a->common);
+      "demo", "Make a chart, upsample it, project it back; print error and speed of each step");
+  command->add_option("DIR", a->directory, "Folder for the three images")
+      ->type_name("")
+      ->capture_default_str();
+  add_common(*command, a->common, "spectile demo /tmp/demo");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

@@ -1,11 +1,14 @@
-// spectile info: what a file holds.
+// spectile info: the metadata of an image.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
-#include "src/cli/common.hpp"
-#include "src/cli/option_texts.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/options/parse.hpp"
+#include "src/cli/output/plot.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -65,14 +68,14 @@ void print_info(const std::string& path, const ImageInfo& info) {
   std::size_t plain = info.channels.size();
   if (info.bands) {
     plain -= info.bands->count();
-    float least = info.channels[plain].minimum;
-    float most = info.channels[plain].maximum;
+    float minimum = info.channels[plain].minimum;
+    float maximum = info.channels[plain].maximum;
     for (std::size_t i = plain; i < info.channels.size(); ++i) {
-      least = info.channels[i].minimum < least ? info.channels[i].minimum : least;
-      most = info.channels[i].maximum > most ? info.channels[i].maximum : most;
+      minimum = std::min(minimum, info.channels[i].minimum);
+      maximum = std::max(maximum, info.channels[i].maximum);
     }
     fmt::print("{} bands of {}, {} ({}), {:.5g} to {:.5g}\n", info.bands->count(), to_string(*info.quantity),
-               info.bands->description(), info.channels[plain].type, least, most);
+               info.bands->description(), info.channels[plain].type, minimum, maximum);
   }
   std::size_t limbs = 0;
   for (std::size_t i = 0; i < plain; ++i) {
@@ -81,14 +84,13 @@ void print_info(const std::string& path, const ImageInfo& info) {
     if (!limb) print_channel(info.channels[i]);
   }
   if (limbs > 0) {
-    fmt::print("  a partial film: {} channels of exact sums, which spectile film develop makes images of\n",
-               limbs);
+    fmt::print("  a partial film: {} channels of exact sums; develop it with spectile film develop\n", limbs);
   }
   fmt::print("{} non-finite and {} negative samples\n", info.nonfinite, info.negative);
   for (const auto& [name, text] : info.attributes) {
     // Long ones, as the bands of a coefficient image, are whole in --json.
-    constexpr std::size_t kMost = 160;
-    fmt::print("{}: {}{}\n", name, text.substr(0, kMost), text.size() > kMost ? " ..." : "");
+    constexpr std::size_t kMaxLength = 160;
+    fmt::print("{}: {}{}\n", name, text.substr(0, kMaxLength), text.size() > kMaxLength ? " ..." : "");
   }
 }
 
@@ -109,15 +111,13 @@ int run(const Arguments& a) {
   if (!a.pixel.empty()) {
     pixel = parse_pixel(a.pixel);
     if (!pixel) {
-      fmt::print(stderr, "spectile: --pixel {} is not X,Y\n", a.pixel);
-      return kBadUsage;
+      return complain_usage(fmt::format("--pixel {} is not X,Y", a.pixel));
     }
   }
   const auto info = inspect_image(a.input, pixel, a.common.threads);
   if (!info) return complain(info.error());
   if (a.common.json) {
-    fmt::print("{}\n",
-               to_json(a.input, *info).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(to_json(a.input, *info));
   } else if (!a.common.quiet) {
     print_info(a.input, *info);
     if (pixel) print_pixel(*info, a.pixel);
@@ -129,11 +129,13 @@ int run(const Arguments& a) {
 
 void add_info(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("info", "Say what an image holds");
-  command->add_option("FILE", a->input, "Any flat OpenEXR image")->required();
-  command->add_option("--pixel", a->pixel,
-                      "X,Y from the upper left corner of the data window: show that pixel, a spectrum drawn");
-  add_common(*command, a->common);
+  CLI::App* command = app.add_subcommand("info", "Print image metadata, and a pixel's spectrum");
+  command->add_option("FILE", a->input, "Any flat OpenEXR image")->type_name("")->required();
+  command
+      ->add_option("--pixel", a->pixel, "Show this pixel, counted from the data window's upper left corner")
+      ->type_name("X,Y")
+      ->group(kFilesGroup);
+  add_common(*command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

@@ -1,23 +1,28 @@
 // The spectile command.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <system_error>
 
-#include "src/cli/common.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/output/messages.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   using namespace spectile::cli;
   CLI::App app{
-      "spectile turns RGB textures into spectral OpenEXR images, spectral images back into colour, and "
-      "shows\n"
-      "textures under other lights.\n"
-      "Exit codes: 0 done, 1 a file that cannot be used, 2 wrong usage, 3 no space or no permission."};
+      "Turns RGB textures into spectral OpenEXR images and back, relights them, and accumulates spectral "
+      "samples."};
+  app.footer(
+      "Example:\n  spectile upsample wood.exr -o wood-spectral.exr\n"
+      "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space or no permission,\n"
+      "130 interrupted.");
+  app.get_formatter()->column_width(34);
   app.set_version_flag("--version", SPECTILE_VERSION);
   app.require_subcommand(1);
   int exit = kOk;
@@ -51,7 +56,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file beyond the shell's size limit is then an error like a full disk, not the end of the process.
+  // A file beyond the shell's size limit is then an error like a full disk, and does not end the process.
   static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {
     return run(argc, argv);
@@ -59,7 +64,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "spectile: {}\n", error.what());
     return spectile::cli::kBadInput;
   } catch (const std::system_error& error) {
-    // What {fmt} throws where standard output takes no more.
+    // {fmt} throws this where standard output is full or closed.
     fmt::print(stderr, "spectile: cannot write to standard output: {}\n", error.code().message());
     return spectile::cli::kNoRoom;
   } catch (const std::exception& error) {

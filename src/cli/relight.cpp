@@ -1,46 +1,38 @@
-// spectile relight: textures under another light.
+// spectile relight: textures under another illuminant.
 #include <memory>
 
-#include "src/cli/batch.hpp"
-#include "src/cli/common.hpp"
-#include "src/cli/method_options.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/jobs.hpp"
+#include "src/cli/options/method_options.hpp"
 
 namespace spectile::cli {
 namespace {
 
+constexpr Choice<Way> kWays[] = {{"direct", Way::kDirect}, {"spectra", Way::kSpectra}};
+
 struct Arguments {
-  Common common;
-  WriteOptions write;
-  BatchOptions batch;
+  ImageCommand image;
   MethodArguments method;
-  std::vector<std::string> inputs;
-  std::string output;
   std::string illuminant;
-  std::string observer = "1931";
-  std::string to = "srgb";
-  std::string adapt = "none";
-  std::string way = "direct";
+  Observer observer = Observer::kCie1931;
+  ColorTarget to = ColorTarget::kSrgb;
+  Adaptation adapt = Adaptation::kNone;
+  Way way = Way::kDirect;
 };
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
-  auto light = load_light(a.illuminant);
-  if (!light) return complain(light.error());
-  RelightImageOptions options(*std::move(light));
-  if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
-  if (const int bad = apply_region(a.batch, options)) return bad;
+  auto illuminant = load_light(a.illuminant);
+  if (!illuminant) return complain(illuminant.error());
+  RelightImageOptions options(*std::move(illuminant));
+  if (const int bad = a.image.apply(options)) return bad;
   if (const int bad = apply_method_options(a.method, options)) return bad;
-  options.target = a.to == "xyz"         ? ColorTarget::kXyz
-                   : a.to == "luminance" ? ColorTarget::kLuminance
-                                         : ColorTarget::kSrgb;
-  options.seen_by = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
-  options.adaptation = adaptation_of(a.adapt);
-  options.way = a.way == "spectra" ? Way::kSpectra : Way::kDirect;
-  Batch batch;
-  if (const int bad = plan_batch(a.batch, a.inputs, a.output, batch)) return bad;
-  batch.settings = settings_text(options);
-  batch.made_from = files_among({a.illuminant, a.method.light, file_of_bands(a.method.bands)});
-  return run_jobs(batch, a.common, options,
+  options.target = a.to;
+  options.seen_by = a.observer;
+  options.adaptation = a.adapt;
+  options.way = a.way;
+  return run_jobs(a.image, settings_text(options),
+                  files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}),
+                  options.progress,
                   [&](const Job& job) { return relight_image(job.input, job.output, options); });
 }
 
@@ -48,27 +40,23 @@ int run(const Arguments& a) {
 
 void add_relight(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "relight", "Show textures under another light, as upsample and project would, without their spectra");
-  command->add_option("IN", a->inputs, "RGB OpenEXR images")->required();
-  command->add_option("-o,--output", a->output, "File, or directory for several inputs")->required();
-  command->add_option("--illuminant", a->illuminant, "The light: " + light_help())->required();
-  command->add_option("--observer", a->observer, "Who sees it: 1931 (2 degree) or 1964 (10 degree)")
-      ->check(CLI::IsMember({"1931", "1964"}))
-      ->capture_default_str();
-  command->add_option("--to", a->to, "srgb (linear, white D65), xyz, or luminance (channel Y)")
-      ->check(CLI::IsMember({"srgb", "xyz", "luminance"}))
-      ->capture_default_str();
-  add_adaptation_option(*command, a->adapt);
-  command
-      ->add_option("--way", a->way,
-                   "direct, or spectra: the long way, spectrum by spectrum, to check the direct one")
-      ->check(CLI::IsMember({"direct", "spectra"}))
-      ->capture_default_str();
+  CLI::App* command =
+      app.add_subcommand("relight", "Show textures under another illuminant, without spectral images");
+  a->image.add_files(*command, "RGB OpenEXR images");
+  command->add_option("--illuminant", a->illuminant, "Illuminant to show them under")
+      ->type_name("SPECTRUM")
+      ->required()
+      ->group(kColorGroup);
+  add_observer_option(*command, a->observer);
+  add_target_options(*command, a->to, a->adapt);
+  add_choice(*command, "--way", a->way, kWays,
+             "direct, or spectra: spectrum by spectrum, to check the former")
+      ->group(kColorGroup);
   add_method_options(*command, a->method);
-  add_write_options(*command, a->write, "half");
-  add_batch_options(*command, a->batch);
-  add_common(*command, a->common);
+  a->image.add_options(
+      *command, "half",
+      std::string("spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n") +
+          kSpectrumHelp);
   command->callback([a, &exit] { exit = run(*a); });
 }
 

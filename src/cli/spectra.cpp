@@ -1,4 +1,4 @@
-// spectile spectra: what spectra there are by name, and what one of them, or of a file, looks like.
+// spectile spectra: lists the spectra known by name, and shows one of them or of a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "src/cli/common.hpp"
-#include "src/cli/method_options.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/output/plot.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -24,7 +25,7 @@ struct Arguments {
   std::optional<std::size_t> column;
 };
 
-/// A spectrum as a list of samples, and what is known of it.
+/// A spectrum as a list of samples, and its description.
 struct Shown {
   std::string name;
   std::string kind;  ///< of NamedSpectrumInfo, or "formula" or "file"
@@ -35,13 +36,9 @@ struct Shown {
   std::vector<double> values;
 };
 
-/// What could be a light: all but those that are surely something else.
-bool may_be_light(const Shown& s) {
+/// True if it could be an illuminant: all but those that are surely something else.
+bool may_be_illuminant(const Shown& s) {
   return s.kind == "illuminant" || s.kind == "formula" || s.kind == "file";
-}
-
-std::string dumped(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 int list_all(const Arguments& a) {
@@ -51,11 +48,11 @@ int list_all(const Arguments& a) {
       fmt::print("{}{},\"{}\",\"{}\",\"{}\",{}\n", last.empty() ? "name,kind,about,source,alias\n" : "",
                  info.name, info.kind, info.about, info.source, info.alias);
     } else if (a.common.json) {
-      fmt::print("{}\n", dumped({{"name", info.name},
-                                 {"kind", info.kind},
-                                 {"about", info.about},
-                                 {"source", info.source},
-                                 {"alias", info.alias}}));
+      print_json({{"name", info.name},
+                  {"kind", info.kind},
+                  {"about", info.about},
+                  {"source", info.source},
+                  {"alias", info.alias}});
     } else if (!a.common.quiet) {
       if (info.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", info.kind);
       fmt::print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);
@@ -109,14 +106,14 @@ Shown describe(const Arguments& a, const Spectrum& spectrum) {
   return out;
 }
 
-/// Chromaticity for the 2 degree observer; nothing where the spectrum gives it no light.
-std::optional<std::array<double, 2>> chromaticity(const Spectrum& light) {
+/// Chromaticity for the 2 degree observer; nothing where the spectrum has no luminance.
+std::optional<std::array<double, 2>> chromaticity(const Spectrum& spectrum) {
   std::array<double, 3> xyz{};
   const char* const observer[] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t i = 0; i < xyz.size(); ++i) {
     const auto bar = named_spectrum(observer[i]);
     if (!bar) return std::nullopt;
-    xyz[i] = inner_product(light, *bar);
+    xyz[i] = inner_product(spectrum, *bar);
   }
   const double sum = xyz[0] + xyz[1] + xyz[2];
   if (!(xyz[1] > 0 && std::isfinite(sum))) return std::nullopt;
@@ -136,7 +133,7 @@ Facts facts_of(const Shown& s) {
   out.maximum = *top;
   out.maximum_at_nm = s.wavelengths_nm[static_cast<std::size_t>(top - s.values.begin())];
   out.average = s.spectrum.integral(400, 700) / 300;
-  if (may_be_light(s)) out.xy = chromaticity(s.spectrum);
+  if (may_be_illuminant(s)) out.xy = chromaticity(s.spectrum);
   return out;
 }
 
@@ -155,7 +152,7 @@ void print_json(const Shown& s, const Arguments& a) {
   if (!s.source.empty()) out["source"] = s.source;
   if (facts.xy) out["chromaticity"] = *facts.xy;
   for (const double nm : a.at) out["at"].push_back({{"wavelength_nm", nm}, {"value", s.spectrum(nm)}});
-  fmt::print("{}\n", dumped(out));
+  print_json(out);
 }
 
 void print_csv(const Shown& s, const Arguments& a) {
@@ -194,7 +191,7 @@ void print_text(const Shown& s, const Arguments& a) {
              facts.maximum_at_nm, facts.average);
   if (facts.xy) {
     fmt::print("chromaticity {}x {:.4f}, y {:.4f} (2 degree observer)\n",
-               s.kind == "file" ? "as a light " : "", (*facts.xy)[0], (*facts.xy)[1]);
+               s.kind == "file" ? "as an illuminant " : "", (*facts.xy)[0], (*facts.xy)[1]);
   }
 }
 
@@ -219,21 +216,27 @@ int run(const Arguments& a) {
 void add_spectra(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("spectra", "List the spectra known by name, or show one");
-  command->add_option(
-      "SPECTRUM", a->which,
-      "A name of the list, blackbody:KELVIN, daylight:KELVIN, constant:VALUE, or a file: CSV, "
-      "two columns, or CGATS (.sp, .cmf)");
-  CLI::Option* const csv = command->add_flag("--csv", a->csv, "Print lines of comma-separated values only");
-  command->add_option("--at", a->at, "Print the value at this wavelength in nm; may be given several times")
+  command
+      ->add_option("SPECTRUM", a->which,
+                   "Name, blackbody:KELVIN, daylight:KELVIN, constant:VALUE, or a file (CSV, .sp, .cmf)")
+      ->type_name("");
+  constexpr const char* kGroup = "Values";
+  CLI::Option* const csv =
+      command->add_flag("--csv", a->csv, "Print comma-separated values only")->group(kGroup);
+  command->add_option("--at", a->at, "Print the value at this wavelength in nm; may be repeated")
+      ->type_name("NM")
       ->allow_extra_args(false)
       ->check([](const std::string& text) {
         double nm = 0;
         const bool good = CLI::detail::lexical_cast(text, nm) && std::isfinite(nm);
         return good ? std::string() : text + " is not a wavelength";
-      });
-  command->add_option("--column", a->column, "Data row of a CGATS file that has several, from 0")
-      ->check(CLI::Range(0, 999999));
-  add_common(*command, a->common);
+      })
+      ->group(kGroup);
+  command->add_option("--column", a->column, "Data row of a CGATS file that holds several, from 0")
+      ->type_name("N")
+      ->check(CLI::Range(0, 999999).description(""))
+      ->group(kGroup);
+  add_common(*command, a->common, "spectile spectra blackbody:3200 --at 555");
   csv->excludes("--json");
   command->callback([a, &exit] {
     if (!a->which && (!a->at.empty() || a->column)) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "src/cli/common.hpp"
-#include "src/cli/method_options.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/method_options.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -40,7 +40,7 @@ int run(const Arguments& a) {
                                   {"max_oracle_difference", report->max_oracle_difference},
                                   {"oracle_bound", report->oracle_bound},
                                   {"ok", report->ok()}};
-      fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      print_json(out);
     } else if (!a.common.quiet) {
       fmt::print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,
                  report->ok() ? "ok" : "DIFFERENT");
@@ -57,11 +57,11 @@ int run(const Arguments& a) {
 
 void add_verify(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "verify", "Run kernels, scalar reference and double oracle on every pixel of an image and compare");
-  command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->required();
+  CLI::App* command =
+      app.add_subcommand("verify", "Compare kernels, scalar reference and double oracle on every pixel");
+  command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->type_name("FILE")->required();
   add_method_options(*command, a->method);
-  add_common(*command, a->common);
+  add_common(*command, a->common, std::string("spectile verify wood.exr --method sigmoid\n") + kSpectrumHelp);
   command->callback([a, &exit] { exit = run(*a); });
 }
 

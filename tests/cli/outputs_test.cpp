@@ -215,8 +215,7 @@ TEST_F(Outputs, DemoMakesThreeImages) {
 
 TEST_F(Outputs, HelpNamesTheDefaults) {
   const std::pair<const char*, std::vector<const char*>> expected[] = {
-      {"upsample",
-       {"400:700:5", "smits", "zip:1", "half by default", "65536", "stop", "clip", "0.14", "plan.json"}},
+      {"upsample", {"400:700:5", "smits", "zip:1", "half by default", "65536", "error", "clip", "plan.json"}},
       {"project", {"srgb", "D65 by default", "1931", "float by default", "zip:1"}},
       {"info", {"--pixel"}},
       {"verify", {"400:700:5", "smits", "reflectance"}},

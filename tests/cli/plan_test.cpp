@@ -69,7 +69,7 @@ TEST_F(PlanCommand, WritesAPlanAndReportsItsPromise) {
                      "--bands", "8", "--folds", "2", "--bounces", "2"}));
   ASSERT_EQ(again.exit, 0) << again;
   EXPECT_THAT(again.out, HasSubstr(output_ + ": 8 wavelengths"));
-  EXPECT_THAT(again.out, HasSubstr("made for 20 reflectances"));
+  EXPECT_THAT(again.out, HasSubstr("planned for 20 reflectances"));
   EXPECT_THAT(again.out, HasSubstr("under D65, 1 bounce "));
   EXPECT_THAT(again.out, HasSubstr("under FL11, 2 bounces "));
   const auto plan = load_plan(output_);
@@ -98,8 +98,8 @@ TEST_F(PlanCommand, PlansForTheColorsOfATexture) {
   const auto outcome = run_tool(plan({"--illuminant", "D65", "--texture", folder_ / "in.exr", "--colors",
                                       "30", "--bands", "6", "--folds", "0"}));
   ASSERT_EQ(outcome.exit, 0) << outcome;
-  EXPECT_THAT(outcome.out, HasSubstr("made for 30 colours of textures"));
-  EXPECT_THAT(outcome.out, HasSubstr("no promise"));
+  EXPECT_THAT(outcome.out, HasSubstr("planned for 30 colours of textures"));
+  EXPECT_THAT(outcome.out, HasSubstr("no cross-validated error"));
   const auto plan = load_plan(output_);
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_TRUE(plan->promises.empty());

@@ -69,7 +69,7 @@ TEST_F(SkipTool, StatsAreText) {
   EXPECT_THAT(plain.out, HasSubstr("1024 pixels of alpha 0 with a colour"));
   const auto stats = upsample({"--stats"});
   EXPECT_THAT(stats.out, HasSubstr("skipped: 4096 pixels masked, 3072 black, 0 in blocks of one colour"));
-  EXPECT_THAT(stats.out, HasSubstr("2 of 4 chunks used again"));
+  EXPECT_THAT(stats.out, HasSubstr("2 of 4 chunks reused"));
 }
 
 TEST_F(SkipTool, MasksAreAlphaNoneOrAFile) {

@@ -143,10 +143,11 @@ TEST_F(Usage, WrongOptionsAreWrongUsage) {
   const std::vector<std::vector<std::string>> wrong = {
       {"--no-such-option"},      {"--method", "magic"},       {"--quantity", "colour"},
       {"--compression", "lzma"}, {"--compression", "zip:77"}, {"--pixel", "double"},
-      {"--nonfinite", "ignore"}, {"--negative", "flip"},      {"--bands", "700:400:5"},
-      {"--bands", "400:700:7"},  {"--bands", "few"},          {"--bands", ""},
-      {"--threads", "-1"},       {"--threads", "many"},       {"--lanes", "0"},
-      {"--tile", "64", "5000"},  {"--lanes", "63"},           {"--isa", "avx1024"}};
+      {"--nonfinite", "ignore"}, {"--negative", "flip"},      {"--out-of-gamut", "move"},
+      {"--bands", "700:400:5"},  {"--bands", "400:700:7"},    {"--bands", "few"},
+      {"--bands", ""},           {"--threads", "-1"},         {"--threads", "many"},
+      {"--lanes", "0"},          {"--tile", "64", "5000"},    {"--lanes", "63"},
+      {"--isa", "avx1024"}};
   for (const auto& options : wrong) {
     std::vector<std::string> arguments = {"upsample", good_, "-o", out_};
     arguments.insert(arguments.end(), options.begin(), options.end());

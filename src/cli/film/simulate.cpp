@@ -6,11 +6,22 @@
 #include <memory>
 #include <optional>
 
-#include "src/cli/common.hpp"
-#include "src/cli/option_texts.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/options/parse.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
+
+constexpr const char* kName = "film simulate";
+constexpr Choice<WavelengthSampling> kSamplings[] = {{"visible", WavelengthSampling::kVisible},
+                                                     {"uniform", WavelengthSampling::kUniform}};
+constexpr Choice<FilmInput> kInputs[] = {{"wavelengths", FilmInput::kWavelengths},
+                                         {"bands", FilmInput::kBands}};
+constexpr Choice<PixelStatistics> kStatistics[] = {{"none", PixelStatistics::kNone},
+                                                   {"counts", PixelStatistics::kCounts},
+                                                   {"variance", PixelStatistics::kVariance}};
 
 struct Arguments {
   Common common;
@@ -21,75 +32,68 @@ struct Arguments {
   std::uint64_t seed = 1;
   std::string shard = "0/1";
   std::size_t wavelengths = 4;
-  std::string sampling = "visible";
-  std::string input = "wavelengths";
+  WavelengthSampling sampling = WavelengthSampling::kVisible;
+  FilmInput input = FilmInput::kWavelengths;
   std::optional<std::string> bands;
   bool spectral = false;
-  std::string observer = "1931";
+  Observer observer = Observer::kCie1931;
   std::vector<std::string> sensors;
   std::string filter = "box";
   bool splat = false;
   std::string crop;
-  std::string statistics = "none";
+  PixelStatistics statistics = PixelStatistics::kNone;
   std::optional<float> maximum;
   int range = FilmOptions().range;
   std::string compression = "zip:1";
-  std::string truth;
+  std::string reference;
   std::string checkpoint;
   double every = 60;
 };
-
-int usage(const std::string& what) {
-  fmt::print(stderr, "spectile: {} (see spectile film simulate --help)\n", what);
-  return kBadUsage;
-}
 
 int film_options(const Arguments& a, FilmOptions& o) {
   o.width = a.size[0];
   o.height = a.size[1];
   if (!a.crop.empty()) {
-    const auto c = whole_numbers<int>(a.crop, ',', 4);
-    if (!c) return usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop));
+    const auto c = parse_integers<int>(a.crop, ',', 4);
+    if (!c) return complain_usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop), kName);
     o.crop = PixelWindow{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
   }
   const auto filter = PixelFilter::parse(a.filter);
-  if (!filter) return usage(filter.error().message);
+  if (!filter) return complain_usage(filter.error().message, kName);
   o.filter = *filter;
   o.placement = a.splat ? SamplePlacement::kSplat : SamplePlacement::kOnePixel;
   // Importance-sampling a filter with lobes below 0 makes weights below 0.
   o.negative_weights = !a.splat && filter->has_negative_lobes();
-  o.input = a.input == "bands" ? FilmInput::kBands : FilmInput::kWavelengths;
+  o.input = a.input;
   if (a.bands) {
     const auto bands = find_bands(*a.bands);
-    if (!bands) return usage(bands.error().message);
+    if (!bands) return complain_usage(bands.error().message, kName);
     o.bands = *bands;
   }
   o.spectral = a.spectral;
-  o.xyz = a.observer == "1964" ? Observer::kCie1964 : Observer::kCie1931;
+  o.xyz = a.observer;
   for (const std::string& name : a.sensors) {
     auto sensor = Sensor::named(name);
-    if (!sensor) return usage(sensor.error().message);
+    if (!sensor) return complain_usage(sensor.error().message, kName);
     o.sensors.push_back({name, *std::move(sensor)});
   }
-  o.statistics = a.statistics == "counts"     ? PixelStatistics::kCounts
-                 : a.statistics == "variance" ? PixelStatistics::kVariance
-                                              : PixelStatistics::kNone;
+  o.statistics = a.statistics;
   if (a.maximum) o.maximum_component = *a.maximum;
   o.range = a.range;
   return kOk;
 }
 
-/// What a checkpoint says of the run that it belongs to, but for how far it is.
+/// Text in a checkpoint that identifies its run, without its progress.
 std::string run_text(const Arguments& a, const SceneSampling& s) {
   return fmt::format("scene {} seed {} samples {} shard {}/{} wavelengths {} {}", a.scene, s.seed,
-                     s.samples_per_pixel, s.shard, s.shards, s.wavelengths, a.sampling);
+                     s.samples_per_pixel, s.shard, s.shards, s.wavelengths, name_of(kSamplings, a.sampling));
 }
 
 /// Steps that a checkpoint has done; nothing for one of another run.
 std::optional<std::uint64_t> steps_done(const std::string& progress, const std::string& run) {
   const std::string start = run + " steps ";
   if (progress.rfind(start, 0) != 0) return {};
-  const auto steps = whole_numbers<std::uint64_t>(progress.substr(start.size()), ' ', 1);
+  const auto steps = parse_integers<std::uint64_t>(progress.substr(start.size()), ' ', 1);
   if (!steps) return {};
   return (*steps)[0];
 }
@@ -146,9 +150,9 @@ int draw(const Arguments& a, const ProceduralScene& scene, const SceneSampling& 
       last_saved = Clock::now();
     }
     if (stop && run.done < steps) {
-      fmt::print(stderr, "spectile: interrupted; {}\n",
-                 saves ? "the checkpoint " + a.checkpoint + " has what was drawn" : "nothing was written");
-      return kInterrupted;
+      return complain({ErrorCode::kCancelled,
+                       "interrupted; " + (saves ? "the checkpoint " + a.checkpoint + " has what was drawn"
+                                                : std::string("nothing was written"))});
     }
   }
   return kOk;
@@ -173,8 +177,7 @@ void report(const Arguments& a, const Run& run, const SceneError& error, const F
                                 {"rms_spectrum_error", error.rms_spectrum},
                                 {"bytes_written", saved.bytes_written},
                                 {"seconds", seconds}};
-    fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-    return;
+    return print_json(out);
   }
   if (a.common.quiet) return;
   fmt::print("{} -> {}: {} samples{}, {}, {:.1f} s\n", a.scene, a.output, stats.accepted,
@@ -184,7 +187,7 @@ void report(const Arguments& a, const Run& run, const SceneError& error, const F
              error.rms_luminance, error.mean_luminance);
   fmt::print("  {} of {} tiles touched, {} bytes a pixel\n", stats.touched_tiles, stats.tiles,
              stats.bytes_per_pixel);
-  if (stats.rejected.total() > 0) fmt::print("  {} samples refused\n", stats.rejected.total());
+  if (stats.rejected.total() > 0) fmt::print("  {} samples rejected\n", stats.rejected.total());
 }
 
 int run(const Arguments& a) {
@@ -193,37 +196,36 @@ int run(const Arguments& a) {
   FilmOptions o;
   if (const int bad = film_options(a, o)) return bad;
   const auto scene = ProceduralScene::named(a.scene);
-  if (!scene) return usage(scene.error().message);
-  const auto shard = whole_numbers<std::uint64_t>(a.shard, '/', 2);
+  if (!scene) return complain_usage(scene.error().message, kName);
+  const auto shard = parse_integers<std::uint64_t>(a.shard, '/', 2);
   if (!shard || (*shard)[0] >= (*shard)[1]) {
-    return usage(fmt::format("--shard \"{}\" is not I/N with I from 0 to N - 1", a.shard));
+    return complain_usage(fmt::format("--shard \"{}\" is not I/N with I from 0 to N - 1", a.shard), kName);
   }
   ImageOptions options;
   options.threads = a.common.threads;
   options.pixel = PixelType::kFloat;
   const auto compression = Compression::parse(a.compression);
-  if (!compression) return usage(compression.error().message);
+  if (!compression) return complain_usage(compression.error().message, kName);
   options.compression = *compression;
-  const SceneSampling s = {
-      .seed = a.seed,
-      .samples_per_pixel = a.samples,
-      .shard = (*shard)[0],
-      .shards = (*shard)[1],
-      .wavelengths = a.wavelengths,
-      .density = a.sampling == "uniform" ? WavelengthSampling::kUniform : WavelengthSampling::kVisible};
+  const SceneSampling s = {.seed = a.seed,
+                           .samples_per_pixel = a.samples,
+                           .shard = (*shard)[0],
+                           .shards = (*shard)[1],
+                           .wavelengths = a.wavelengths,
+                           .density = a.sampling};
   catch_signals();
   const std::string text = run_text(a, s);
   auto state = start_or_continue(a, o, text);
   if (!state) {
-    if (state.error().code == ErrorCode::kBadArgument) return usage(state.error().message);
+    if (state.error().code == ErrorCode::kBadArgument) return complain_usage(state.error().message, kName);
     return complain(state.error());
   }
   const std::uint64_t continued = state->done;
   if (const int bad = draw(a, *scene, s, text, options, *state)) return bad;
   const auto saved = save_film(state->film, a.output, {}, options);
   if (!saved) return complain(saved.error());
-  if (!a.truth.empty()) {
-    const auto written = write_scene(*scene, o, a.truth, options);
+  if (!a.reference.empty()) {
+    const auto written = write_scene(*scene, o, a.reference, options);
     if (!written) return complain(written.error());
   }
   if (!a.checkpoint.empty()) {
@@ -241,58 +243,59 @@ int run(const Arguments& a) {
 
 void add_film_simulate(CLI::App& film, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = film.add_subcommand(
-      "simulate", "Draw samples of a scene whose exact values are known, into a partial film");
-  command->add_option("-o,--output", a->output, "The partial film to write")->required();
-  command->add_option("--scene", a->scene, "gradients, edges, spikes, decades, or mixed: all four")
-      ->check(CLI::IsMember(ProceduralScene::names()))
-      ->capture_default_str();
-  command->add_option("--size", a->size, "Width and height in pixels")->expected(2)->capture_default_str();
-  command->add_option("--samples", a->samples, "Samples a pixel")->capture_default_str();
-  command->add_option("--seed", a->seed, "Another seed, other samples")->capture_default_str();
-  command->add_option("--shard", a->shard, "I/N: the I-th of N parts, from 0; merged they are the whole")
-      ->capture_default_str();
-  command->add_option("--wavelengths", a->wavelengths, "Wavelengths a sample, 1 to 64")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  command
-      ->add_option("--sampling", a->sampling,
-                   "How wavelengths are drawn: visible (as the eye sees) or uniform")
-      ->check(CLI::IsMember({"visible", "uniform"}))
-      ->capture_default_str();
-  command->add_option("--input", a->input, "What the film is fed with: wavelengths, or bands")
-      ->check(CLI::IsMember({"wavelengths", "bands"}))
-      ->capture_default_str();
-  command->add_option("--bands", a->bands,
-                      "FIRST:LAST:STEP in nm, centres, or a plan (plan.json); 400:700:5 by default");
-  command->add_flag("--spectral", a->spectral, "Keep spectra on the bands too");
-  command->add_option("--observer", a->observer, "1931 (2 degree) or 1964 (10 degree)")
-      ->check(CLI::IsMember({"1931", "1964"}))
-      ->capture_default_str();
-  command->add_option("--sensor", a->sensors,
-                      "Keep a sensor's colour too: " + fmt::format("{}", fmt::join(Sensor::names(), ", ")));
-  command
-      ->add_option("--filter", a->filter,
-                   "box, triangle, gaussian, mitchell or lanczos, then :RADIUS and its parameters")
-      ->capture_default_str();
-  command->add_flag("--splat", a->splat,
-                    "Weigh each sample into the pixels around it; else the filter is importance-sampled");
-  command->add_option("--crop", a->crop, "X0,Y0,X1,Y1: only these pixels");
-  command->add_option("--statistics", a->statistics, "Of a pixel's samples: none, counts or variance")
-      ->check(CLI::IsMember({"none", "counts", "variance"}))
-      ->capture_default_str();
-  command->add_option("--max-component", a->maximum, "Scale samples with a larger component down to it");
-  command->add_option("--range", a->range, "Contributions reach to 2^RANGE")->capture_default_str();
-  command->add_option("--compression", a->compression, "none, rle, zips, zip or piz, zip with :LEVEL")
-      ->capture_default_str();
-  command->add_option("--truth", a->truth, "Write the exact XYZ too, as an image");
-  command->add_option("--checkpoint", a->checkpoint,
-                      "Save the film here now and then, and go on from there when the file exists; removed "
-                      "at the end");
-  command->add_option("--every", a->every, "Seconds between checkpoints")
+  CLI::App* command =
+      film.add_subcommand("simulate", "Sample a scene whose exact values are known, into a partial film");
+  const auto option = [command](const char* flag, auto& value, const char* type, const char* group,
+                                const std::string& text) {
+    return command->add_option(flag, value, text)->type_name(type)->group(group);
+  };
+  option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
+  option("--reference,--truth", a->reference, "FILE", kFilesGroup, "Write the exact XYZ too, as an image");
+  option("--checkpoint", a->checkpoint, "FILE", kFilesGroup,
+         "Save the film here regularly, and continue from it if it exists");
+  option("--every", a->every, "SECONDS", kFilesGroup, "Interval of checkpoints")
       ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS")
       ->capture_default_str();
-  add_common(*command, a->common);
+  add_film_compression_option(*command, a->compression);
+
+  constexpr const char* kScene = "Scene and samples";
+  option("--scene", a->scene, "NAME", kScene, "gradients, edges, spikes, decades or mixed (all four)")
+      ->check(CLI::IsMember(ProceduralScene::names()).description(""))
+      ->capture_default_str();
+  option("--size", a->size, "W H", kScene, "Width and height in pixels; 256 x 256 by default")
+      ->expected(2)
+      ->option_text("W H");
+  option("--samples", a->samples, "N", kScene, "Samples per pixel")->capture_default_str();
+  option("--seed", a->seed, "N", kScene, "Random seed")->capture_default_str();
+  option("--shard", a->shard, "I/N", kScene, "The I-th of N parts, from 0, which merge into the whole")
+      ->capture_default_str();
+  option("--wavelengths", a->wavelengths, "N", kScene, "Wavelengths per sample, 1 to 64")
+      ->check(CLI::Range(1, 64).description(""))
+      ->capture_default_str();
+  add_choice(*command, "--sampling", a->sampling, kSamplings, "Density of wavelengths: visible or uniform")
+      ->group(kScene);
+  add_choice(*command, "--input", a->input, kInputs, "Samples at wavelengths, or on bands")->group(kScene);
+
+  constexpr const char* kFilm = "Film";
+  option("--bands", a->bands, "BANDS", kFilm,
+         "FIRST:LAST:STEP, centres in nm, or a plan; 400:700:5 by default");
+  command->add_flag("--spectral", a->spectral, "Keep spectra on the bands too")->group(kFilm);
+  add_observer_option(*command, a->observer)->group(kFilm);
+  option("--sensor", a->sensors, "NAME", kFilm,
+         fmt::format("Keep a sensor: {}", fmt::join(Sensor::names(), ", ")));
+  option("--filter", a->filter, "NAME[:RADIUS]", kFilm, "box, triangle, gaussian, mitchell or lanczos")
+      ->capture_default_str();
+  command->add_flag("--splat", a->splat, "Splat samples by the filter; importance-sampled by default")
+      ->group(kFilm);
+  option("--crop", a->crop, "X0,Y0,X1,Y1", kFilm, "Only these pixels");
+  add_choice(*command, "--statistics", a->statistics, kStatistics, "Per pixel: none, counts or variance")
+      ->group(kFilm);
+  option("--max-component", a->maximum, "X", kFilm, "Scale samples down to this largest component");
+  option("--range", a->range, "EXPONENT", kFilm, "Largest contribution, as a power of 2")
+      ->capture_default_str();
+  add_common(*command, a->common,
+             "spectile film simulate --scene mixed --samples 64 --shard 0/2 -o part0.exr");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

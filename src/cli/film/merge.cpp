@@ -5,7 +5,9 @@
 #include <memory>
 #include <set>
 
-#include "src/cli/common.hpp"
+#include "src/cli/commands.hpp"
+#include "src/cli/options/common_options.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -28,25 +30,18 @@ int run(const Arguments& a) {
   if (const int bad = apply_common(a.common)) return bad;
   ImageOptions options;
   options.threads = a.common.threads;
-  const auto compression = Compression::parse(a.compression);
-  if (!compression) {
-    fmt::print(stderr, "spectile: {}\n", compression.error().message);
-    return kBadUsage;
-  }
-  options.compression = *compression;
+  if (const int bad = take(Compression::parse(a.compression), options.compression)) return bad;
   std::set<std::string> seen;
   for (const std::string& input : a.inputs) {
     if (seen.insert(identity(input)).second) continue;
-    fmt::print(stderr, "spectile: {} is named twice, and its samples would count twice\n", input);
-    return kBadUsage;
+    return complain_usage(fmt::format("{} is named twice, and its samples would count twice", input));
   }
   catch_signals();
   auto all = load_film(a.inputs[0], a.common.threads);
   if (!all) return complain(all.error());
   for (std::size_t i = 1; i < a.inputs.size(); ++i) {
     if (interrupted()) {
-      fmt::print(stderr, "spectile: interrupted; nothing was written\n");
-      return kInterrupted;
+      return complain({ErrorCode::kCancelled, "interrupted; nothing was written"});
     }
     const auto next = load_film(a.inputs[i], a.common.threads);
     if (!next) return complain(next.error());
@@ -66,10 +61,10 @@ int run(const Arguments& a) {
                                 {"rejected", stats.rejected.total()},
                                 {"bytes_written", saved->bytes_written},
                                 {"seconds", saved->seconds}};
-    fmt::print("{}\n", out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(out);
   } else if (!a.common.quiet) {
-    fmt::print("{} film{} -> {}: {} samples, {}\n", a.inputs.size(), a.inputs.size() == 1 ? "" : "s",
-               a.output, stats.accepted, size_text(saved->bytes_written));
+    fmt::print("{} -> {}: {} samples, {}\n", plural(a.inputs.size(), "film"), a.output, stats.accepted,
+               size_text(saved->bytes_written));
   }
   return kOk;
 }
@@ -78,13 +73,14 @@ int run(const Arguments& a) {
 
 void add_film_merge(CLI::App& film, int& exit) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = film.add_subcommand(
-      "merge", "Merge partial films: the very bits of one film fed with all their samples, in any order");
-  command->add_option("IN", a->inputs, "Partial films")->required();
-  command->add_option("-o,--output", a->output, "The partial film to write")->required();
-  command->add_option("--compression", a->compression, "none, rle, zips, zip or piz, zip with :LEVEL")
-      ->capture_default_str();
-  add_common(*command, a->common);
+  CLI::App* command = film.add_subcommand("merge", "Merge partial films; the order does not matter");
+  command->add_option("IN", a->inputs, "Partial films")->type_name("FILE")->required();
+  command->add_option("-o,--output", a->output, "Partial film to write")
+      ->type_name("FILE")
+      ->required()
+      ->group(kFilesGroup);
+  add_film_compression_option(*command, a->compression);
+  add_common(*command, a->common, "spectile film merge a.exr b.exr -o all.exr");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

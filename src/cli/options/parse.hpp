@@ -1,4 +1,4 @@
-// Texts of options taken apart: regions, shares, pixels, weights.
+// Parsers of option values: regions, shards, pixels, weights.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace spectile::cli {
 
-/// One of `count` even shares of the inputs.
+/// One of `count` shards of the inputs.
 struct Shard {
   std::size_t index = 0;  ///< from 0
   std::size_t count = 1;
@@ -22,7 +22,7 @@ struct Shard {
 /// "I/N", with I from 0 to N - 1, of at most nine digits each; nothing for other texts.
 std::optional<Shard> parse_shard(std::string_view text);
 
-/// A whole number of at most nine digits; nothing for other texts.
+/// An integer of at most nine digits; nothing for other texts.
 std::optional<std::size_t> parse_count(std::string_view text);
 
 /// "X0,Y0,X1,Y1" with X0 <= X1 and Y0 <= Y1; nothing for other texts.
@@ -31,12 +31,12 @@ std::optional<std::array<int, 4>> parse_region(std::string_view text);
 /// "X,Y"; nothing for other texts.
 std::optional<std::array<int, 2>> parse_pixel(std::string_view text);
 
-/// Numbers between commas. Errors: kBadArgument with the text quoted.
+/// Numbers separated by commas. Errors: kBadArgument with the text quoted.
 Result<std::vector<double>> parse_weights(std::string_view text);
 
-/// `count` whole numbers with `separator` between; nothing for other texts.
+/// `count` integers separated by `separator`; nothing for other texts.
 template <class T>
-std::optional<std::vector<T>> whole_numbers(std::string_view text, char separator, std::size_t count) {
+std::optional<std::vector<T>> parse_integers(std::string_view text, char separator, std::size_t count) {
   std::vector<T> out;
   const char* at = text.data();
   const char* const end = at + text.size();

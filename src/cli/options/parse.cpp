@@ -1,5 +1,5 @@
-// Texts of options taken apart: regions, shares, pixels, weights.
-#include "src/cli/option_texts.hpp"
+// Parsers of option values: regions, shards, pixels, weights.
+#include "src/cli/options/parse.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@ namespace spectile::cli {
 namespace {
 
 template <class T, std::size_t kCount>
-std::optional<std::array<T, kCount>> between_commas(std::string_view text) {
-  const auto numbers = whole_numbers<T>(text, ',', kCount);
+std::optional<std::array<T, kCount>> parse_list(std::string_view text) {
+  const auto numbers = parse_integers<T>(text, ',', kCount);
   if (!numbers) return {};
   std::array<T, kCount> out{};
   std::copy(numbers->begin(), numbers->end(), out.begin());
@@ -24,7 +24,7 @@ std::string Shard::text() const {
 }
 
 std::optional<std::size_t> parse_count(std::string_view text) {
-  const auto value = whole_numbers<std::size_t>(text, ',', 1);
+  const auto value = parse_integers<std::size_t>(text, ',', 1);
   if (!value || value->front() > 999'999'999) return {};
   return value->front();
 }
@@ -39,13 +39,13 @@ std::optional<Shard> parse_shard(std::string_view text) {
 }
 
 std::optional<std::array<int, 4>> parse_region(std::string_view text) {
-  const auto region = between_commas<int, 4>(text);
+  const auto region = parse_list<int, 4>(text);
   if (!region || (*region)[0] > (*region)[2] || (*region)[1] > (*region)[3]) return {};
   return region;
 }
 
 std::optional<std::array<int, 2>> parse_pixel(std::string_view text) {
-  return between_commas<int, 2>(text);
+  return parse_list<int, 2>(text);
 }
 
 Result<std::vector<double>> parse_weights(std::string_view text) {

@@ -1,10 +1,10 @@
 // A spectrum drawn in the terminal.
+#include "src/cli/output/plot.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "src/cli/common.hpp"
 
 namespace spectile::cli {
 namespace {

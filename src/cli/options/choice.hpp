@@ -1,0 +1,62 @@
+// Options whose value is one of a few names.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+namespace spectile::cli {
+
+/// A name on the command line and its value. A second name of the same value is accepted and not listed.
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+/// Entry of a name; null for other texts.
+template <class T, std::size_t kCount>
+const Choice<T>* find_choice(const Choice<T> (&choices)[kCount], const std::string& name) {
+  for (const Choice<T>& choice : choices) {
+    if (name == choice.name) return &choice;
+  }
+  return nullptr;
+}
+
+/// First name of a value.
+template <class T, std::size_t kCount>
+std::string name_of(const Choice<T> (&choices)[kCount], T value) {
+  for (const Choice<T>& choice : choices) {
+    if (choice.value == value) return choice.name;
+  }
+  return {};
+}
+
+/// "{a,b,c}".
+template <class T, std::size_t kCount>
+std::string list_of(const Choice<T> (&choices)[kCount]) {
+  std::string out;
+  for (const Choice<T>& choice : choices) {
+    if (name_of(choices, choice.value) == choice.name)
+      out += (out.empty() ? "{" : ",") + std::string(choice.name);
+  }
+  return out + "}";
+}
+
+/// Adds an option that sets `target`, a T or an optional one. `choices` must outlive the command. The help
+/// shows the value that a T has now.
+template <class Target, class T, std::size_t kCount>
+CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& target,
+                        const Choice<T> (&choices)[kCount], const std::string& text) {
+  CLI::Option* const option = command.add_option_function<std::string>(
+      flag, [&target, &choices](const std::string& name) { target = find_choice(choices, name)->value; },
+      text);
+  option->type_name("NAME")->check([&choices](const std::string& name) {
+    return find_choice(choices, name) != nullptr ? std::string() : name + " not in " + list_of(choices);
+  });
+  if constexpr (std::is_same_v<Target, T>) option->default_str(name_of(choices, target));
+  return option;
+}
+
+}  // namespace spectile::cli

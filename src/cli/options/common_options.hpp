@@ -1,0 +1,85 @@
+// Options that several subcommands share: execution, files written, observer, adaptation, colour target.
+#pragma once
+
+#include <optional>
+#include <spectile/spectile.hpp>
+#include <string>
+#include <vector>
+
+#include "src/cli/options/choice.hpp"
+#include "src/cli/output/messages.hpp"
+
+namespace spectile::cli {
+
+// Groups of options in the help, in their order.
+inline constexpr const char* kFilesGroup = "Input and output";
+inline constexpr const char* kColorGroup = "Colour";
+inline constexpr const char* kBandsGroup = "Bands";
+inline constexpr const char* kFormatGroup = "File format";
+inline constexpr const char* kManyGroup = "Many images";
+inline constexpr const char* kRunGroup = "Run";
+
+inline constexpr Choice<Observer> kObservers[] = {{"1931", Observer::kCie1931}, {"1964", Observer::kCie1964}};
+inline constexpr Choice<PixelType> kPixelTypes[] = {{"half", PixelType::kHalf}, {"float", PixelType::kFloat}};
+inline constexpr Choice<NonFinite> kNonFinites[] = {
+    {"error", NonFinite::kStop}, {"stop", NonFinite::kStop}, {"zero", NonFinite::kZero}};
+inline constexpr Choice<ColorTarget> kTargets[] = {
+    {"srgb", ColorTarget::kSrgb}, {"xyz", ColorTarget::kXyz}, {"luminance", ColorTarget::kLuminance}};
+inline constexpr Choice<Adaptation> kAdaptations[] = {
+    {"none", Adaptation::kNone}, {"bradford", Adaptation::kBradford}, {"cat16", Adaptation::kCat16}};
+
+/// Options of every subcommand.
+struct Common {
+  int threads = 0;
+  std::string isa;
+  bool json = false;
+  bool quiet = false;
+  bool stats = false;  ///< True if the report says what was skipped.
+  bool shows_text() const { return !json && !quiet; }
+};
+
+/// Adds the options of every subcommand and the example that ends its help.
+void add_common(CLI::App& command, Common& common, const std::string& example);
+
+/// Puts the common options in force. Returns an exit code; prints the error.
+int apply_common(const Common& common);
+
+/// Options of what is written.
+struct WriteOptions {
+  std::optional<PixelType> pixel;
+  std::string compression;
+  NonFinite nonfinite = NonFinite::kStop;
+  std::size_t lanes = 65536;
+  std::vector<int> tile;  ///< width and height, or none
+  bool mipmap = false;
+};
+
+/// Adds --pixel and --compression.
+void add_format_options(CLI::App& command, WriteOptions& options, const std::string& pixel_default);
+/// Adds --nonfinite.
+void add_nonfinite_option(CLI::App& command, NonFinite& nonfinite, const std::string& zero);
+/// Adds --tile, --mipmap and --lanes.
+void add_layout_options(CLI::App& command, WriteOptions& options);
+/// Adds --compression of films.
+void add_film_compression_option(CLI::App& command, std::string& compression);
+
+/// Fills `out`. Returns an exit code; prints the error.
+int apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
+
+/// Adds an option of a standard observer.
+CLI::Option* add_observer_option(CLI::App& command, Observer& observer, const char* flag = "--observer");
+/// Adds --to and --adapt.
+void add_target_options(CLI::App& command, ColorTarget& target, Adaptation& adaptation);
+
+/// "SPECTRUM: name, blackbody:KELVIN, ..." for the end of a help text.
+inline constexpr const char* kSpectrumHelp =
+    "SPECTRUM: a name (see spectile spectra), blackbody:KELVIN, daylight:KELVIN, or a file (CSV, CGATS).";
+
+/// An illuminant: whatever find_spectrum() takes. Beyond a table's samples it has the value of the nearest
+/// one; formulas are tabulated at tabulated_nm(), beyond which the same holds.
+Result<NamedLight> load_light(const std::string& text);
+
+/// Wavelengths at which formulas become tables: every nanometre from 300 to 830.
+std::vector<double> tabulated_nm();
+
+}  // namespace spectile::cli

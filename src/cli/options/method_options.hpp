@@ -1,0 +1,34 @@
+// Options by which colours become spectra, common to upsample, relight and verify.
+#pragma once
+
+#include <string>
+
+#include "src/cli/options/common_options.hpp"
+
+namespace spectile::cli {
+
+/// As given on the command line.
+struct MethodArguments {
+  std::string method = std::string(to_string(kDefaultMethod));
+  Quantity quantity = Quantity::kReflectance;
+  std::string bands = "400:700:5";
+  std::string white;
+  Observer white_observer = Observer::kCie1931;
+  std::string input_space;
+  Negative negative = Negative::kGamut;
+  std::optional<GamutPolicy> out_of_gamut;
+  std::string layer;
+};
+
+void add_method_options(CLI::App& command, MethodArguments& a);
+
+// Parts of them, for other commands that read RGB images.
+void add_method_option(CLI::App& command, std::string& method);
+void add_rgb_input_options(CLI::App& command, std::string& input_space, std::string& layer);
+/// Stores the RGB space of that name; nothing for an empty name. Returns an exit code; prints the error.
+int take_space(const std::string& name, std::optional<RgbSpace>& out);
+
+/// Fills `out`. Returns an exit code; prints the error.
+int apply_method_options(const MethodArguments& a, MethodOptions& out);
+
+}  // namespace spectile::cli

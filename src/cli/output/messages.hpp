@@ -1,0 +1,48 @@
+// Exit codes, error messages and texts of numbers.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <spectile/result.hpp>
+#include <string>
+
+namespace spectile::cli {
+
+/// Exit codes of the tool.
+enum Exit : int {
+  kOk = 0,
+  kBadInput = 1,       ///< an input that cannot be used
+  kBadUsage = 2,       ///< wrong usage
+  kNoRoom = 3,         ///< no space, no permission
+  kInterrupted = 130,  ///< stopped by a signal, as shells count it
+};
+
+/// Prints one line to stderr and returns the error's exit code.
+int complain(const Error& error);
+/// Prints one line to stderr and returns kBadUsage. Names the command whose help explains it, if any.
+int complain_usage(const std::string& message, const std::string& command = {});
+/// Prints one line to stderr for a file that cannot be written. `error` is an errno.
+int complain_write(const std::string& path, int error);
+
+/// Stores the value of a result in `out`. Returns an exit code; prints the error.
+template <class T, class U>
+int take(Result<T> result, U& out) {
+  if (!result) return complain(result.error());
+  out = *std::move(result);
+  return kOk;
+}
+
+/// One line of JSON. Bytes that are not UTF-8 are replaced.
+std::string json_line(const nlohmann::json& json);
+void print_json(const nlohmann::json& json);
+
+/// "1 pixel", "2 pixels".
+std::string plural(std::uint64_t n, const char* noun);
+/// "12.3 Mpixel/s".
+std::string speed_text(std::uint64_t pixels, double seconds);
+/// "1.2 GB".
+std::string size_text(std::uint64_t bytes);
+/// Prints how many values of what were clamped to the range of half; nothing for none.
+void print_clamped(std::uint64_t count, const char* noun);
+
+}  // namespace spectile::cli
