@@ -1,4 +1,4 @@
-"""Markdown tables of a benchmark's report, put between the markers of a page; see figures.py."""
+"""Markdown tables of a benchmark's report, put between the markers of pages; see figures.py."""
 import json
 import re
 import sys
@@ -80,12 +80,17 @@ def report_stress(r):
 def report(args):
     with open(args.report, encoding="utf-8") as file:
         r = json.load(file)
-    with open(args.page, encoding="utf-8") as file:
-        page = file.read()
+    pages = {}
+    for path in args.page:
+        with open(path, encoding="utf-8") as file:
+            pages[path] = file.read()
     for name in ("machine", "limits", "operations", "baseline", "frontier", "bounces", "stress"):
-        text = f"<!-- {name} -->\n{globals()['report_' + name](r)}\n<!-- end -->"
-        page, found = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda _, t=text: t, page, flags=re.S)
-        if found != 1:
-            sys.exit(f"figures: {args.page}: {found} places for {name}")
-    with open(args.page, "w", encoding="utf-8") as file:
-        file.write(page)
+        text, places = f"<!-- {name} -->\n{globals()['report_' + name](r)}\n<!-- end -->", 0
+        for path, page in pages.items():
+            pages[path], found = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda _, t=text: t, page, flags=re.S)
+            places += found
+        if places != 1:
+            sys.exit(f"figures: {', '.join(pages)}: {places} places for {name}")
+    for path, page in pages.items():
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(page)

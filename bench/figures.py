@@ -3,7 +3,7 @@
 
 usage: bench/figures.py COMMAND [--tool build/spectile] ...    (figures.py COMMAND --help lists its options)
 
-  report REPORT.json PAGE.md   tables of a report (`spectile bench --json`) between the page's markers
+  report REPORT.json PAGE.md... tables of a report (`spectile bench --json`) between the pages' markers
   convergence                  error of a film against samples a pixel
   planning                     colour error against number of bands, even and planned
   planned                      upsampling to planned bands against 60 even ones
@@ -330,7 +330,7 @@ def main():
             command.add_argument("image")
     command = commands.add_parser("report")
     command.add_argument("report")
-    command.add_argument("page")
+    command.add_argument("page", nargs="+")
     args = parser.parse_args()
     args.chart = None
     with tempfile.TemporaryDirectory(prefix="spectile-figures-") as folder:

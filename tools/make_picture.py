@@ -4,6 +4,7 @@
 usage: tools/make_picture.py SPECTILE DEMO_DIR OUT.png     (needs ImageMagick with OpenEXR)
 """
 import json
+import os
 import subprocess
 import sys
 
@@ -35,13 +36,15 @@ for corner, colour in enumerate(colours):
         draw += ["-draw", line]
 axis = ["-fill", "none", "-stroke", "#404040", "-strokewidth", "1",
         "-draw", f"line {LEFT},{TOP + PH} {LEFT + PW},{TOP + PH}", "-draw", f"line {LEFT},{TOP} {LEFT},{TOP + PH}"]
-text = ["-stroke", "none", "-fill", "#303030", "-pointsize", "15"]
+# ImageMagick's own font comes with Ghostscript, which may be missing.
+font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+text = [*(["-font", font] if os.path.exists(font) else []), "-stroke", "none", "-fill", "#303030", "-pointsize", "14"]
 for value in (0, 0.5, 1):
     text += ["-draw", f"text {LEFT - 30},{TOP + PH * (1 - value / 1.1) + 5} '{value}'"]
 for nm in (400, 500, 600, 700):
     text += ["-draw", f"text {LEFT + PW * (nm - 400) / 300 - 12},{TOP + PH + 20} '{nm}'"]
 text += ["-draw", f"text 20,{TOP + 290} 'RGB texture'",
-         "-draw", f"text {LEFT + 30},{TOP + 290} 'spectra of the corners, 60 bands (nm)'",
+         "-draw", f"text {LEFT + 30},{TOP + 290} 'spectra of its corners by smits-exact (nm)'",
          "-draw", f"text {LEFT + PW + 50},{TOP + 290} 'projected back under D65'"]
 scale = ["-resize", "375x250", "-colorspace", "sRGB"]
 subprocess.check_call(

@@ -24,7 +24,7 @@ std::vector<std::string> files_among(const std::vector<std::string>& names_or_fi
 /// The file that a text of bands names, as find_bands() takes it; empty where it holds numbers.
 std::string file_of_bands(const std::string& bands);
 
-/// What every subcommand that converts images takes.
+/// Options of every subcommand that converts images.
 struct ImageCommand {
   Common common;
   WriteOptions write;

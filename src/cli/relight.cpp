@@ -8,7 +8,7 @@
 namespace spectile::cli {
 namespace {
 
-constexpr Choice<Way> kWays[] = {{"direct", Way::kDirect}, {"spectra", Way::kSpectra}};
+constexpr Choice<Way> kPaths[] = {{"direct", Way::kDirect}, {"spectra", Way::kSpectra}};
 
 struct Arguments {
   ImageCommand image;
@@ -17,7 +17,7 @@ struct Arguments {
   Observer observer = Observer::kCie1931;
   ColorTarget to = ColorTarget::kSrgb;
   Adaptation adapt = Adaptation::kNone;
-  Way way = Way::kDirect;
+  Way path = Way::kDirect;
 };
 
 int run(const Arguments& a) {
@@ -29,7 +29,7 @@ int run(const Arguments& a) {
   options.target = a.to;
   options.seen_by = a.observer;
   options.adaptation = a.adapt;
-  options.way = a.way;
+  options.way = a.path;
   return run_jobs(a.image, settings_text(options),
                   files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}),
                   options.progress,
@@ -49,7 +49,7 @@ void add_relight(CLI::App& app, int& exit) {
       ->group(kColorGroup);
   add_observer_option(*command, a->observer);
   add_target_options(*command, a->to, a->adapt);
-  add_choice(*command, "--way", a->way, kWays,
+  add_choice(*command, "--way", a->path, kPaths,
              "direct, or spectra: spectrum by spectrum, to check the former")
       ->group(kColorGroup);
   add_method_options(*command, a->method);

@@ -137,7 +137,7 @@ Facts facts_of(const Shown& s) {
   return out;
 }
 
-void print_json(const Shown& s, const Arguments& a) {
+void print_shown_json(const Shown& s, const Arguments& a) {
   const Facts facts = facts_of(s);
   nlohmann::json out = {{"name", s.name},
                         {"kind", s.kind},
@@ -204,7 +204,7 @@ int run(const Arguments& a) {
   if (a.csv) {
     print_csv(shown, a);
   } else if (a.common.json) {
-    print_json(shown, a);
+    print_shown_json(shown, a);
   } else if (!a.common.quiet) {
     print_text(shown, a);
   }

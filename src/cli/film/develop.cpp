@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/jobs.hpp"
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/output/progress.hpp"
 
