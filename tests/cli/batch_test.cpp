@@ -141,7 +141,7 @@ TEST_F(Batches, UpdateSeesAPlanChange) {
   EXPECT_THAT(run(options).out, HasSubstr("7 converted, 0 up to date\n"));
 }
 
-TEST_F(Batches, NoOutputTakesThePlaceOfWhatItIsMadeFrom) {
+TEST_F(Batches, NoOutputReplacesADependency) {
   const std::string lamp = folder_ / "lamp.csv";
   const std::string text = "400,1\n700,2\n";
   test::write_text(lamp, text);

@@ -33,7 +33,7 @@ class PlanCommand : public testing::Test {
   const std::string output_ = folder_ / "plan.json";
 };
 
-TEST_F(PlanCommand, NeverTakesThePlaceOfWhatItIsMadeFrom) {
+TEST_F(PlanCommand, NeverReplacesADependency) {
   std::string table;
   for (int nm = 380; nm <= 730; nm += 50) {
     table += std::to_string(nm);
