@@ -279,7 +279,7 @@ void add_bench(CLI::App& app, int& exit) {
       ->capture_default_str();
   flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
   flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
-  command->get_help_ptr()->group(kRunGroup);
+  command->set_help_flag("-h,--help", "Print this help message and exit")->group(kRunGroup);
   command->footer(
       "Example:\n  spectile bench --quick --report bench.html\n"
       "Takes minutes. The report says where other work disturbed it (docs/performance.md).\n"

@@ -27,7 +27,7 @@ int run(const Arguments& a) {
 void add_expand(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "expand", "Turn images of coefficients (upsample --store coefficients) into spectral ones");
+      "expand", "Turn coefficient images (upsample --store coefficients) into spectral ones");
   a->image.add_files(*command, "OpenEXR images with channels spectile.c0, c1, c2");
   command
       ->add_option("--bands", a->bands,

@@ -218,7 +218,7 @@ void add_spectra(CLI::App& app, int& exit) {
   CLI::App* command = app.add_subcommand("spectra", "List the spectra known by name, or show one");
   command
       ->add_option("SPECTRUM", a->which,
-                   "Name, blackbody:KELVIN, daylight:KELVIN, constant:VALUE, or a file (CSV, .sp, .cmf)")
+                   "Name, file (CSV, .sp, .cmf), or blackbody:KELVIN, daylight:KELVIN, constant:VALUE")
       ->type_name("");
   constexpr const char* kGroup = "Values";
   CLI::Option* const csv =

@@ -45,15 +45,15 @@ void add_upsample(CLI::App& app, int& exit) {
       ->type_name("FILE")
       ->group(kFilesGroup);
   add_choice(*command, "--store", a->store, kStores,
-             "spectra (a channel per band), or coefficients (3 or 4 channels for spectile expand)")
+             "spectra: a channel per band; coefficients: for spectile expand")
       ->group(kFormatGroup);
-  command->add_flag("--no-skip", a->no_skip, "Compute black, constant and repeated parts too; same bytes")
-      ->group(kRunGroup);
-  command->add_flag("--stats", a->image.common.stats, "Print what was skipped")->group(kRunGroup);
   a->image.add_options(
       *command, "half",
       std::string("spectile upsample wood.exr -o wood-s.exr --method sigmoid --bands 380:780:5\n") +
           kSpectrumHelp);
+  command->add_flag("--no-skip", a->no_skip, "Compute black, constant and repeated parts too; same bytes")
+      ->group(kRunGroup);
+  command->add_flag("--stats", a->image.common.stats, "Print what was skipped")->group(kRunGroup);
   command->callback([a, &exit] { exit = run(*a); });
 }
 

@@ -16,7 +16,8 @@ void add_common(CLI::App& command, Common& common, const std::string& example) {
       ->group(kRunGroup);
   command.add_flag("--json", common.json, "Print JSON, one object per line")->group(kRunGroup);
   command.add_flag("--quiet", common.quiet, "Print errors only")->group(kRunGroup);
-  command.get_help_ptr()->group(kRunGroup);
+  // Made anew, so that its group is the last.
+  command.set_help_flag("-h,--help", "Print this help message and exit")->group(kRunGroup);
   command.footer("Example:\n  " + example);
 }
 
