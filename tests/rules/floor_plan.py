@@ -6,6 +6,7 @@ line can be named, so that the graph has no cycle. A public header belongs to a 
 usage: floor_plan.py PROJECT_FOLDER
 """
 import fnmatch
+import functools
 import os
 import re
 import sys
@@ -90,10 +91,29 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 COMMENT = re.compile(r"//.*")
 
 
+@functools.cache
+def read_source(path, _time, _size):
+    """Number of lines of a file, its includes, and the numbers of the lines that print or end the process."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    lines = text.splitlines()
+    prints_at_all = PRINTS.search(text)
+    includes, prints = [], []
+    for number, line in enumerate(lines, 1):
+        include = INCLUDE.match(line) if "#" in line else None
+        if include:
+            includes.append((number, *include.groups()))
+        elif prints_at_all and PRINTS.search(COMMENT.sub("", line)):
+            prints.append(number)
+    return len(lines), includes, prints
+
+
+@functools.cache
 def matches(path, patterns):
     return any(fnmatch.fnmatchcase(path, pattern) for pattern in patterns.split())
 
 
+@functools.cache
 def room_of(path):
     """The room whose pattern is the longest of those that hold the file; None if there is none."""
     best = (-1, None)
@@ -125,19 +145,15 @@ class FloorPlan:
         self.check_order()
         public = []
         for path in self.sources:
-            with open(os.path.join(self.root, path), encoding="utf-8") as file:
-                text = file.read()
-            may_print = matches(path, MAY_PRINT) or not PRINTS.search(text)
-            lines = text.splitlines()
-            if len(lines) > MAX_LINES and not matches(path, SIZE_EXEMPT):
-                self.complain("lines", path, f"{len(lines)} lines, at most {MAX_LINES}")
-            for number, line in enumerate(lines, 1):
-                place = f"{path}:{number}"
-                include = INCLUDE.match(line) if "#" in line else None
-                if include:
-                    self.check_include(path, place, *include.groups())
-                elif not may_print and PRINTS.search(COMMENT.sub("", line)):
-                    self.complain("prints", place, "the library neither prints nor exits")
+            full = os.path.join(self.root, path)
+            lines, includes, prints = read_source(full, os.stat(full).st_mtime_ns, os.stat(full).st_size)
+            if lines > MAX_LINES and not matches(path, SIZE_EXEMPT):
+                self.complain("lines", path, f"{lines} lines, at most {MAX_LINES}")
+            for number, mark, header in includes:
+                self.check_include(path, f"{path}:{number}", mark, header)
+            if not matches(path, MAY_PRINT):
+                for number in prints:
+                    self.complain("prints", f"{path}:{number}", "the library neither prints nor exits")
             if path.startswith("include/spectile/") and not path.startswith("include/spectile/bench/"):
                 public.append(path.removeprefix("include/"))
         self.check_umbrella(public)
