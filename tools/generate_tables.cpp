@@ -58,8 +58,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const Bands bands;
-  const auto space =
-      working_space(bands, Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1931);
+  const auto space = working_space(bands, false, kRec709, *illuminant("D65"), Observer::kCie1931);
   const auto exact = smoothest_basis(bands, *space);
   const auto primaries = primary_decomposition(bands, *space);
   if (!exact || !primaries) {

@@ -10,6 +10,8 @@
 #include "bench/baseline/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
+#include "src/color/kernel_tables.hpp"
+#include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile::measure {
@@ -97,7 +99,7 @@ const float* const* rgb_pointers(const State& s, const float* (&to)[3]) {
 
 void sum_up(const KernelTable& k, State& s) {
   const ColorSpan xyz = s.xyz.span();
-  k.project(xyz.c[0], xyz.c[1], xyz.c[2], s.spectra.data(), s.projector->float_weights(),
+  k.project(xyz.c[0], xyz.c[1], xyz.c[2], s.spectra.data(), ProjectorAccess::weights(*s.projector),
             s.upsampler->bands().count(), blocks_for(kMethodLanes));
 }
 
@@ -108,15 +110,16 @@ void through_halves(const KernelTable& k, State& s) {
 
 void mix(const KernelTable& k, State& s) {
   const float* rgb[3];
-  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb), s.upsampler->table(), s.upsampler->lowest(),
-                 s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
+  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb), UpsamplerAccess::table(*s.upsampler),
+                 s.upsampler->lowest(), s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
 }
 
 void solve(const KernelTable& k, State& s) {
   const float* rgb[3];
   float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kMethodLanes,
                        s.coefficients.data() + 2 * kMethodLanes};
-  k.sigmoid_solve(c, rgb_pointers(s, rgb), s.upsampler->sigmoid()->table, s.unsolved.data(), kMethodLanes);
+  k.sigmoid_solve(c, rgb_pointers(s, rgb), UpsamplerAccess::sigmoid(*s.upsampler)->table, s.unsolved.data(),
+                  kMethodLanes);
 }
 
 const float* const* coefficient_pointers(State& s, const float* (&to)[3]) {
@@ -126,15 +129,17 @@ const float* const* coefficient_pointers(State& s, const float* (&to)[3]) {
 
 void evaluate(const KernelTable& k, State& s) {
   const float* c[3];
-  k.sigmoid_blocks(s.spectra.data(), coefficient_pointers(s, c), nullptr, s.upsampler->sigmoid()->table.rows,
-                   false, s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
+  k.sigmoid_blocks(s.spectra.data(), coefficient_pointers(s, c), nullptr,
+                   UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, false, s.upsampler->bands().count(),
+                   blocks_for(kMethodLanes), false);
 }
 
 void sum_sigmoid(const KernelTable& k, State& s) {
   const float* c[3];
   const ColorSpan xyz = s.xyz.span();
-  k.sigmoid_project(xyz.c, coefficient_pointers(s, c), nullptr, s.upsampler->sigmoid()->table.rows, false,
-                    s.projector->float_weights(), s.upsampler->bands().count(), kMethodLanes);
+  k.sigmoid_project(xyz.c, coefficient_pointers(s, c), nullptr,
+                    UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, false,
+                    ProjectorAccess::weights(*s.projector), s.upsampler->bands().count(), kMethodLanes);
 }
 
 /// A method on some bands, in each of its executions.
@@ -178,7 +183,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   s->relighter = std::move(relighter);
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
     const float* rgb[3];
-    k.smits_fold(t.xyz.span().c, rgb_pointers(t, rgb), t.relighter->table().data(), kMethodLanes);
+    k.smits_fold(t.xyz.span().c, rgb_pointers(t, rgb), RelighterAccess::table(*t.relighter), kMethodLanes);
   });
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "bench/operations/operation.hpp"
 #include "src/base/errors.hpp"
+#include "src/color/kernel_tables.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -149,8 +150,8 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
   op.bound = count / 8 + 12;
   op.bottleneck = "a sample of each band comes alone, to be spread over a quad";
   op.fill = uniform_values(bands, 0.01F, 1.0F);
-  auto weights =
-      std::make_shared<std::vector<float>>(projector.float_weights(), projector.float_weights() + 4 * bands);
+  auto weights = std::make_shared<std::vector<float>>(ProjectorAccess::weights(projector),
+                                                      ProjectorAccess::weights(projector) + 4 * bands);
   auto exact = std::make_shared<std::vector<double>>();
   for (const auto& w : projector.weights()) exact->insert(exact->end(), w.begin(), w.end());
   op.run = [=](const KernelTable& k, const Arrays& a) {

@@ -8,6 +8,7 @@
 
 #include "bench/operations/operation.hpp"
 #include "src/base/errors.hpp"
+#include "src/color/kernel_tables.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -131,7 +132,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
       "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
       "memory";
   xyz.run = [=](const KernelTable& k, const Arrays& a) {
-    k.project(a.out(0), a.out(1), a.out(2), a.in(), projector->float_weights(), n, a.blocks);
+    k.project(a.out(0), a.out(1), a.out(2), a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
   };
   xyz.error = error_against(3, weighted_by(weights, n, 3), count, false, xyz.bound);
   to.push_back(std::move(xyz));
@@ -141,7 +142,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   y.operations = count + sums;
   y.bound = count / 8 + 11;
   y.run = [=](const KernelTable& k, const Arrays& a) {
-    k.weighted_sum(a.out(), a.in(), projector->luminance_weights(), n, a.blocks);
+    k.weighted_sum(a.out(), a.in(), ProjectorAccess::luminance_weights(*projector), n, a.blocks);
   };
   y.error = error_against(1, weighted_by(y_weights, n, 1), count, false, y.bound);
   to.push_back(std::move(y));

@@ -6,6 +6,7 @@
 
 #include "bench/operations/operation.hpp"
 #include "kernels/sigmoid_constants.hpp"
+#include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile::measure {
@@ -53,7 +54,7 @@ std::array<double, 3> sigmoid_color(const SigmoidTable& table, const double* c) 
 }
 
 void add_search(std::vector<Operation>& to, const Shared& upsampler) {
-  const SigmoidModel& model = *upsampler->sigmoid();
+  const SigmoidModel& model = *UpsamplerAccess::sigmoid(*upsampler);
   const std::size_t bands = upsampler->bands().count();
   const auto count = static_cast<double>(bands);
   Operation solve;
@@ -64,7 +65,7 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   solve.out = {3, 1};
   solve.unit = "1e-6 of the colour";
   // Bands on which some colours have no sigmoid are bounded by 1e-5 where they are not reported.
-  solve.bound = model.has_cube ? 1 : 10;
+  solve.bound = model.covers_unit_cube ? 1 : 10;
   solve.fill = uniform_values(3, 0.0F, 1.0F);
   // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
   // with the samples, their slopes and the nine sums of the derivatives.
@@ -76,7 +77,7 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
     thread_local std::vector<std::uint64_t> unsolved;
     unsolved.resize(a.blocks);
-    k.sigmoid_solve(c, rgb, upsampler->sigmoid()->table, unsolved.data(), a.n());
+    k.sigmoid_solve(c, rgb, UpsamplerAccess::sigmoid(*upsampler)->table, unsolved.data(), a.n());
     // Unsolved colours are marked for the evaluation.
     for (std::size_t i = 0; i < a.n(); ++i) {
       if (unsolved[i / kLanes] == 0) {
@@ -87,12 +88,12 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
     }
   };
   const kernels::SigmoidTable table = model.table;
-  const bool has_cube = model.has_cube;
+  const bool covers_unit_cube = model.covers_unit_cube;
   solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
     if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
     if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kOutOfDomain;
     // Bands that have no sigmoid for some colours report them.
-    if (std::isnan(c[0])) return has_cube ? std::numeric_limits<double>::infinity() : kOutOfDomain;
+    if (std::isnan(c[0])) return covers_unit_cube ? std::numeric_limits<double>::infinity() : kOutOfDomain;
     const auto sum = sigmoid_color(table, c);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
@@ -119,7 +120,7 @@ std::array<double, 3> sum_rounding(const SigmoidTable& table, const double* c) {
 
 /// Colours that sigmoid_solve does not find, for colours outside the cube as well as in it.
 void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
-  const SigmoidTable table = upsampler->sigmoid()->table;
+  const SigmoidTable table = UpsamplerAccess::sigmoid(*upsampler)->table;
   const auto count = static_cast<double>(table.bands);
   Operation op;
   op.group = "upsampling";
@@ -138,8 +139,8 @@ void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const c[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_continuation(c, a.out(3), rgb, upsampler->sigmoid()->table, upsampler->luminance().data(),
-                           a.n());
+    k.sigmoid_continuation(c, a.out(3), rgb, UpsamplerAccess::sigmoid(*upsampler)->table,
+                           upsampler->luminance().data(), a.n());
   };
   const std::array<float, 3> luminance = upsampler->luminance();
   op.error = [=](const double* rgb, const double* out, double tiny) {
@@ -191,7 +192,7 @@ Operation evaluation(std::string name, std::size_t bands) {
 }
 
 void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
-  const SigmoidTable table = upsampler->sigmoid()->table;
+  const SigmoidTable table = UpsamplerAccess::sigmoid(*upsampler)->table;
   const std::size_t bands = table.bands;
   const auto samples_error = [=](const double* c, const double* out, double /*tiny*/) {
     if (!has_bound(c)) return kOutOfDomain;
@@ -207,8 +208,8 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_blocks(a.out(), c, nullptr, upsampler->sigmoid()->table.rows, false, bands, a.blocks,
-                     a.non_temporal);
+    k.sigmoid_blocks(a.out(), c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, false, bands,
+                     a.blocks, a.non_temporal);
   };
   blocks.error = samples_error;
   to.push_back(std::move(blocks));
@@ -226,7 +227,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       for (std::size_t b = 0; b < bands; ++b) {
         rows[b] = half ? static_cast<void*>(a.out<std::uint16_t>(b)) : static_cast<void*>(a.out(b));
       }
-      const float* const samples = upsampler->sigmoid()->table.rows;
+      const float* const samples = UpsamplerAccess::sigmoid(*upsampler)->table.rows;
       (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(rows.data(), c, nullptr, samples, false, bands,
                                                           a.n());
     };
@@ -256,7 +257,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   sums.run = [=](const KernelTable& k, const Arrays& a) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    const SigmoidTable& t = upsampler->sigmoid()->table;
+    const SigmoidTable& t = UpsamplerAccess::sigmoid(*upsampler)->table;
     k.sigmoid_project(dst, c, nullptr, t.rows, false, t.weights, bands, a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {

@@ -10,6 +10,7 @@
 
 #include "bench/operations/operation.hpp"
 #include "src/base/errors.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -90,7 +91,8 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_blocks(a.out(), rgb, upsampler->table(), upsampler->lowest(), bands, a.blocks, a.non_temporal);
+    k.smits_blocks(a.out(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands, a.blocks,
+                   a.non_temporal);
   };
   op.error = mixture_error(flat_basis(*upsampler), bands, 0);
   to.push_back(op);
@@ -105,7 +107,8 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     thread_local std::vector<void*> rows;
     rows.resize(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out(b);
-    k.smits_rows_float(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
+    k.smits_rows_float(rows.data(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands,
+                       a.n());
   };
   to.push_back(op);
 
@@ -119,7 +122,8 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     thread_local std::vector<void*> rows;
     rows.resize(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out<std::uint16_t>(b);
-    k.smits_rows_half(rows.data(), rgb, upsampler->table(), upsampler->lowest(), bands, a.n());
+    k.smits_rows_half(rows.data(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands,
+                      a.n());
   };
   const auto basis = flat_basis(*upsampler);
   op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
@@ -158,11 +162,12 @@ void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relight
   op.run = [=](const KernelTable& k, const Arrays& a) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_fold(dst, rgb, relighter->table().data(), a.n());
+    k.smits_fold(dst, rgb, RelighterAccess::table(*relighter), a.n());
   };
   auto basis = std::make_shared<std::vector<double>>();
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t k = 0; k < 7; ++k) basis->push_back(relighter->table()[row * kSmitsRow + k]);
+    for (std::size_t k = 0; k < 7; ++k)
+      basis->push_back(RelighterAccess::table(*relighter)[row * kSmitsRow + k]);
   }
   op.error = mixture_error(basis, 3, -std::numeric_limits<double>::infinity());
   to.push_back(std::move(op));

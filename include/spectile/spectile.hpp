@@ -3,6 +3,7 @@
 
 #include <spectile/color/color_difference.hpp>
 #include <spectile/color/colorimetry.hpp>
+#include <spectile/color/response_curves.hpp>
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/color/sensor.hpp>
 #include <spectile/constants.hpp>
@@ -18,6 +19,7 @@
 #include <spectile/isa.hpp>
 #include <spectile/lanes/arithmetic.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/lanes/wavelengths.hpp>
 #include <spectile/plan/plan.hpp>
 #include <spectile/radiometry/directions.hpp>

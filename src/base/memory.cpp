@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
-// What the pool may keep unused; beyond it freed memory goes back at once.
+// Maximum of unused memory in the pool; beyond it freed memory goes back at once.
 constexpr std::size_t kMaxPooledBytes = std::size_t{256} << 20;
 
 class Pool {

@@ -130,8 +130,8 @@ Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double
                        LanesSpan difference, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(xyz_a.lanes, xyz_b.lanes));
   SPECTILE_TRY(shape::same_lanes(xyz_a.lanes, difference.lanes));
-  for (const float* plane : xyz_a.c) SPECTILE_TRY(shape::aligned(plane));
-  for (const float* plane : xyz_b.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(xyz_a));
+  SPECTILE_TRY(shape::aligned(xyz_b));
   SPECTILE_TRY(shape::aligned(difference.data));
   for (const double component : white) {
     if (!std::isfinite(component) || !(component > 0)) {

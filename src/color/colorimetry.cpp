@@ -1,8 +1,9 @@
-// Projection to CIE XYZ, luminance, and XYZ to and from linear sRGB.
+// Projection to CIE XYZ, luminance and a sensor's RGB, and XYZ to and from linear sRGB.
 #include <cmath>
-#include <spectile/color/colorimetry.hpp>
+#include <spectile/color/sensor.hpp>
 
 #include "src/color/color_matrix.hpp"
+#include "src/color/kernel_tables.hpp"
 #include "src/data/tables.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/lanes/shape.hpp"
@@ -51,17 +52,22 @@ Result<std::vector<std::array<double, 3>>> planned_weights(const Plan& plan, con
 
 }  // namespace
 
-Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectrum* light,
-                                        Observer observer) {
+void Projector::add_band(const std::array<double, 3>& weights) {
+  weights_.push_back(weights);
+  for (const double v : weights) float_weights_.push_back(static_cast<float>(v));
+  float_weights_.push_back(0.0F);
+  luminance_weights_.push_back(static_cast<float>(weights[1]));
+}
+
+Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpectrum* light,
+                                         Observer observer) {
   const data::MatchingFunctions& table = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
   const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar),
                                          matching_function(table, table.y_bar),
                                          matching_function(table, table.z_bar)};
   const MeasuredSpectrum d65 = *illuminant("D65");
   std::array<double, 3> d65_white{};
-  Projector projector;
-  projector.bands_ = bands;
-  projector.observer_ = observer;
+  std::vector<std::array<double, 3>> weights;
   if (bands.plan() != nullptr) {
     for (std::size_t k = 0; k < 3; ++k) d65_white[k] = product_integral(functions[k], d65, 0, 1000);
     // A plan for D65 has its white on its own.
@@ -71,10 +77,10 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
         for (std::size_t k = 0; k < 3; ++k) d65_white[k] += w[k];
       }
     }
-    SPECTILE_ASSIGN(projector.weights_, planned_weights(*bands.plan(), light, observer));
+    SPECTILE_ASSIGN(weights, planned_weights(*bands.plan(), light, observer));
   }
   double luminance = 0;
-  for (const auto& w : projector.weights_) luminance += w[1];
+  for (const auto& w : weights) luminance += w[1];
   for (const Band& band : bands.plan() == nullptr ? bands.list() : std::span<const Band>()) {
     std::array<double, 3> w{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -86,29 +92,55 @@ Result<Projector> Projector::from_light(const Bands& bands, const MeasuredSpectr
                                        : product_integral(functions[k], d65, band.lower_nm, band.upper_nm);
     }
     luminance += w[1];
-    projector.weights_.push_back(w);
+    weights.push_back(w);
   }
   if (!(luminance > 0)) {
     return make_error(ErrorCode::kBadArgument, "bands {} hold no {} luminance", bands.description(),
                       light == nullptr ? "visible" : "of the light's");
   }
-  projector.xyz_to_srgb_ = white_keeping_srgb(d65_white);
-  for (auto& w : projector.weights_) {
-    for (double& v : w) v /= luminance;
-    for (const double v : w) projector.float_weights_.push_back(static_cast<float>(v));
-    projector.float_weights_.push_back(0.0F);
-    projector.luminance_weights_.push_back(static_cast<float>(w[1]));
+  Projector out;
+  out.bands_ = bands;
+  out.observer_ = observer;
+  out.xyz_to_srgb_ = white_keeping_srgb(d65_white);
+  for (const auto& w : weights) out.add_band({w[0] / luminance, w[1] / luminance, w[2] / luminance});
+  return out;
+}
+
+Result<Projector> Projector::of_sensor(const Bands& bands, const Spectrum* light, const Sensor& sensor) {
+  if (bands.plan() != nullptr) {
+    return make_error(ErrorCode::kBadArgument,
+                      "planned bands are weighed by their plan's own sensor, the CIE observer, alone");
   }
-  return projector;
+  Projector out;
+  out.bands_ = bands;
+  for (const Band& band : bands.list()) {
+    std::array<double, 3> weights{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Spectrum& curve = sensor.curves()[c];
+      weights[c] =
+          sensor.factors()[c] * (light != nullptr ? inner_product(curve, *light, band.lower_nm, band.upper_nm)
+                                                  : curve.integral(band.lower_nm, band.upper_nm));
+    }
+    out.add_band(weights);
+  }
+  return out;
 }
 
 Result<Projector> Projector::emissive(const Bands& bands, Observer observer) {
-  return from_light(bands, nullptr, observer);
+  return of_observer(bands, nullptr, observer);
 }
 
 Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light,
                                         Observer observer) {
-  return from_light(bands, &light, observer);
+  return of_observer(bands, &light, observer);
+}
+
+Result<Projector> Projector::emissive(const Bands& bands, const Sensor& sensor) {
+  return of_sensor(bands, nullptr, sensor);
+}
+
+Result<Projector> Projector::reflective(const Bands& bands, const Spectrum& light, const Sensor& sensor) {
+  return of_sensor(bands, &light, sensor);
 }
 
 std::array<double, 3> Projector::white() const noexcept {
@@ -119,25 +151,25 @@ std::array<double, 3> Projector::white() const noexcept {
   return sum;
 }
 
-Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
+Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan color,
                      const Execution& execution) {
-  SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
-  SPECTILE_TRY(shape::same_lanes(spectra.lanes, xyz.lanes));
+  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_lanes(spectra.lanes, color.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
-  for (const float* plane : xyz.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(color));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t bands = spectra.bands.count();
   tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    table->project(xyz.c[0] + at, xyz.c[1] + at, xyz.c[2] + at, spectra.data + at * bands,
-                   projector.float_weights(), bands, count);
+    table->project(color.c[0] + at, color.c[1] + at, color.c[2] + at, spectra.data + at * bands,
+                   ProjectorAccess::weights(projector), bands, count);
   });
   return {};
 }
 
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
                        const Execution& execution) {
-  SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_TRY(shape::aligned(y.data));
@@ -145,7 +177,8 @@ Result<void> luminance(const Projector& projector, SampledSpectraView spectra, L
   const std::size_t bands = spectra.bands.count();
   tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    table->weighted_sum(y.data + at, spectra.data + at * bands, projector.luminance_weights(), bands, count);
+    table->weighted_sum(y.data + at, spectra.data + at * bands, ProjectorAccess::luminance_weights(projector),
+                        bands, count);
   });
   return {};
 }
@@ -163,8 +196,8 @@ const Matrix3& xyz_to_srgb_matrix() {
 
 Result<void> transform(const Matrix3& matrix, ColorView in, ColorSpan out, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(in.lanes, out.lanes));
-  for (const float* plane : in.c) SPECTILE_TRY(shape::aligned(plane));
-  for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(in));
+  SPECTILE_TRY(shape::aligned(out));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::array<float, 9> m = color::to_float(matrix);
   tiles::for_blocks(blocks_for(in.lanes), execution, [&](std::size_t first, std::size_t count) {

@@ -90,12 +90,12 @@ std::array<double, 3> times(const Matrix3& m, const std::array<double, 3>& v) {
   return out;
 }
 
-std::array<double, 3> xyz_of(const std::array<double, 2>& xy) {
+std::array<double, 3> chromaticity_to_xyz(const std::array<double, 2>& xy) {
   return {xy[0] / xy[1], 1.0, (1.0 - xy[0] - xy[1]) / xy[1]};
 }
 
 Matrix3 rgb_to_xyz(const Chromaticities& space) {
-  return rgb_to_xyz(space, xyz_of(space.white));
+  return rgb_to_xyz(space, chromaticity_to_xyz(space.white));
 }
 
 Matrix3 rgb_to_xyz(const Chromaticities& primaries, const std::array<double, 3>& white) {

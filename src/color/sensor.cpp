@@ -1,4 +1,4 @@
-// Sensor: responses, projection of sampled spectra, and the fit of its RGB to XYZ.
+// Sensor: responses, and the fit of its RGB to XYZ.
 #include <algorithm>
 #include <cmath>
 #include <spectile/color/color_difference.hpp>
@@ -6,9 +6,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
-#include "src/dispatch/dispatch.hpp"
-#include "src/lanes/shape.hpp"
-#include "src/lanes/tiles.hpp"
 
 namespace spectile {
 namespace {
@@ -26,7 +23,7 @@ std::array<Spectrum, 3> observer_curves(const data::MatchingFunctions& cie) {
           tabulated(cie.first_nm, cie.z_bar)};
 }
 
-Spectrum samples_of(const data::NamedTable& table) {
+Spectrum tabulated_curve(const data::NamedTable& table) {
   std::vector<double> nm;
   for (std::size_t i = 0; i < table.values.size(); ++i) {
     nm.push_back(table.first_nm + static_cast<double>(i) * table.step_nm);
@@ -35,7 +32,7 @@ Spectrum samples_of(const data::NamedTable& table) {
 }
 
 /// A patch's reflectance over the whole visible range, its ends constant.
-Spectrum patch_of(const data::NamedTable& table) {
+Spectrum patch_reflectance(const data::NamedTable& table) {
   std::vector<double> nm = {kFirstVisibleNm};
   std::vector<double> values = {table.values.front()};
   for (std::size_t i = 0; i < table.values.size(); ++i) {
@@ -78,7 +75,8 @@ Result<Sensor> Sensor::named(std::string_view name, const SensorOptions& options
   if (name == "cie1964") return create(observer_curves(data::kCie1964), options);
   if (name == "canon-eos-5d-mkii") {
     const auto tables = data::canon_eos_5d_mkii();
-    return create({samples_of(tables[0]), samples_of(tables[1]), samples_of(tables[2])}, options);
+    return create({tabulated_curve(tables[0]), tabulated_curve(tables[1]), tabulated_curve(tables[2])},
+                  options);
   }
   return make_error(ErrorCode::kUnknownName, "sensor \"{}\" is unknown; there are {}", name,
                     fmt::join(names(), ", "));
@@ -104,44 +102,6 @@ Result<ResponseCurves> Sensor::response_curves() const {
   return ResponseCurves::create(curves_, factors_);
 }
 
-Result<SensorProjector> SensorProjector::create(const Sensor& sensor, const Bands& bands,
-                                                const std::optional<Spectrum>& light) {
-  if (bands.plan() != nullptr) {
-    return make_error(ErrorCode::kBadArgument,
-                      "planned bands are weighed by their plan's own sensor, the CIE observer, alone");
-  }
-  SensorProjector out;
-  out.bands_ = bands;
-  for (const Band& band : bands.list()) {
-    Triple weights{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Spectrum& curve = sensor.curves()[c];
-      weights[c] = sensor.factors()[c] * (light ? inner_product(curve, *light, band.lower_nm, band.upper_nm)
-                                                : curve.integral(band.lower_nm, band.upper_nm));
-      out.float_weights_.push_back(static_cast<float>(weights[c]));
-    }
-    out.float_weights_.push_back(0);
-    out.weights_.push_back(weights);
-  }
-  return out;
-}
-
-Result<void> project(const SensorProjector& projector, SampledSpectraView spectra, ColorSpan rgb,
-                     const Execution& execution) {
-  SPECTILE_TRY(shape::bands_of("the projector", projector.bands(), spectra.bands));
-  SPECTILE_TRY(shape::same_lanes(spectra.lanes, rgb.lanes));
-  SPECTILE_TRY(shape::aligned(spectra.data));
-  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const std::size_t bands = spectra.bands.count();
-  tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
-    const std::size_t at = first * kLanesPerBlock;
-    table->project(rgb.c[0] + at, rgb.c[1] + at, rgb.c[2] + at, spectra.data + at * bands,
-                   projector.float_weights(), bands, count);
-  });
-  return {};
-}
-
 Result<SensorFit> fit_sensor_to_xyz(const Sensor& sensor, const Spectrum& light) {
   SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
   const Triple white = observer.response(light);
@@ -149,7 +109,7 @@ Result<SensorFit> fit_sensor_to_xyz(const Sensor& sensor, const Spectrum& light)
   std::vector<Triple> seen;
   std::vector<Triple> wanted;
   for (const data::NamedTable& table : data::colorchecker()) {
-    const Spectrum patch = patch_of(table);
+    const Spectrum patch = patch_reflectance(table);
     seen.push_back(sensor.response(light, patch));
     Triple xyz = observer.response(light, patch);
     for (double& v : xyz) v /= white[1];

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <new>
 
-#include "src/base/errors.hpp"
+#include "src/base/out_of_memory.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/film/entries.hpp"
 #include "src/film/scratch.hpp"
@@ -43,7 +42,7 @@ void rows_from(const RowsView& rows, std::size_t first, std::vector<const float*
 
 /// Points the scratch's rows at samples `first` on; where they are fewer than whole blocks, at a copy of them
 /// with zeros behind.
-Result<Batch> chunk_of(const Batch& batch, std::size_t first, std::size_t n, FilmScratch& scratch) {
+Result<Batch> padded_chunk(const Batch& batch, std::size_t first, std::size_t n, FilmScratch& scratch) {
   Batch out = batch;
   out.x += first;
   out.y += first;
@@ -132,7 +131,7 @@ void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch
 
 Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch& whole, std::size_t first,
                        std::size_t n, FilmScratch& scratch) {
-  SPECTILE_ASSIGN(const auto batch, chunk_of(whole, first, n, scratch));
+  SPECTILE_ASSIGN(const auto batch, padded_chunk(whole, first, n, scratch));
   const std::size_t padded = blocks_for(n) * kLanes;
   weigh(s, table, batch, padded, scratch);
   std::array<std::uint64_t, kFilmReasons> counts{};
@@ -158,9 +157,9 @@ Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch&
 }
 
 /// Scratch of a film, for as long as this lives.
-class Lent {
+class ScratchLease {
  public:
-  explicit Lent(State& s) : state_(s) {
+  explicit ScratchLease(State& s) : state_(s) {
     {
       const std::scoped_lock lock(s.scratch_mutex);
       if (!s.scratch.empty()) {
@@ -170,9 +169,9 @@ class Lent {
     }
     if (!scratch_) scratch_ = std::make_unique<FilmScratch>();
   }
-  Lent(const Lent&) = delete;
-  Lent& operator=(const Lent&) = delete;
-  ~Lent() {
+  ScratchLease(const ScratchLease&) = delete;
+  ScratchLease& operator=(const ScratchLease&) = delete;
+  ~ScratchLease() {
     const std::scoped_lock lock(state_.scratch_mutex);
     try {
       state_.scratch.push_back(std::move(scratch_));
@@ -210,8 +209,8 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
   std::mutex mutex;
   Result<void> result;
   tiles::for_blocks(blocks_for(n), execution, [&](std::size_t first_block, std::size_t blocks) {
-    const auto run = [&]() -> Result<void> {
-      Lent scratch(s);
+    const auto work = [&]() -> Result<void> {
+      ScratchLease scratch(s);
       SPECTILE_TRY(make_room(s, batch.radiance.count, *scratch));
       const std::size_t end = std::min(n, (first_block + blocks) * kLanes);
       for (std::size_t i = first_block * kLanes; i < end; i += kChunk) {
@@ -219,11 +218,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
       }
       return {};
     };
-    Result<void> done = make_error(ErrorCode::kOutOfMemory, "no memory to add {} samples", n);
-    try {
-      done = run();
-    } catch (const std::bad_alloc&) {  // the error that stands there already
-    }
+    const Result<void> done = guard_memory(work, "no memory to add {} samples", n);
     if (done) return;
     const std::scoped_lock first(mutex);
     if (result) result = done;
@@ -234,7 +229,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
   return result;
 }
 
-const float* weight_of(std::span<const float> weight) {
+const float* data_or_null(std::span<const float> weight) {
   return weight.empty() ? nullptr : weight.data();
 }
 
@@ -256,7 +251,7 @@ Result<void> Film::add(const WavelengthSamples& samples, const Execution& execut
   SPECTILE_TRY(rows_fit("wavelengths", samples.lambda_nm, count, n));
   SPECTILE_TRY(rows_fit("densities", samples.density, count, n));
   return add_batch(*state_,
-                   {samples.x.data(), samples.y.data(), weight_of(samples.weight), samples.radiance,
+                   {samples.x.data(), samples.y.data(), data_or_null(samples.weight), samples.radiance,
                     samples.lambda_nm, samples.density},
                    n, execution);
 }
@@ -273,9 +268,9 @@ Result<void> Film::add(const BandSamples& samples, const Execution& execution) {
                       samples.radiance.count, state_->options.bands.count());
   }
   SPECTILE_TRY(rows_fit("radiance", samples.radiance, samples.radiance.count, n));
-  return add_batch(*state_,
-                   {samples.x.data(), samples.y.data(), weight_of(samples.weight), samples.radiance, {}, {}},
-                   n, execution);
+  return add_batch(
+      *state_, {samples.x.data(), samples.y.data(), data_or_null(samples.weight), samples.radiance, {}, {}},
+      n, execution);
 }
 
 }  // namespace spectile

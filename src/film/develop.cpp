@@ -4,7 +4,7 @@
 #include <limits>
 #include <mutex>
 
-#include "src/base/errors.hpp"
+#include "src/base/out_of_memory.hpp"
 #include "src/film/pixel.hpp"
 #include "src/film/state.hpp"
 #include "src/lanes/tiles.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using State = FilmAccess::State;
 
-Result<std::size_t> planes_of(const FilmOptions& o, FilmLayer layer, std::size_t sensor) {
+Result<std::size_t> plane_count(const FilmOptions& o, FilmLayer layer, std::size_t sensor) {
   const auto missing = [](const char* what) {
     return make_error(ErrorCode::kBadArgument, "the film does not keep {}", what);
   };
@@ -46,7 +46,7 @@ Result<std::size_t> planes_of(const FilmOptions& o, FilmLayer layer, std::size_t
 }  // namespace
 
 Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer layer, std::size_t sensor) {
-  SPECTILE_ASSIGN(const auto planes, planes_of(film.options(), layer, sensor));
+  SPECTILE_ASSIGN(const auto planes, plane_count(film.options(), layer, sensor));
   FilmDevelopment out;
   out.film_ = film.state_;
   out.layer_ = layer;
@@ -57,13 +57,12 @@ Result<FilmDevelopment> FilmDevelopment::create(const Film& film, FilmLayer laye
   out.plane_floats_ = out.stride_ * static_cast<std::size_t>(out.window_.height());
   SPECTILE_ASSIGN(out.pixels_, FloatBuffer::create(out.planes_ * out.plane_floats_));
   std::fill_n(out.pixels_.data(), out.pixels_.size(), 0.0F);
-  try {
-    out.seen_.assign(FilmAccess::state(film).tiles.size(), 0);
-  } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kOutOfMemory, "no memory to develop a film of {} tiles",
-                      FilmAccess::state(film).tiles.size());
-  }
-  return out;
+  const std::size_t tiles = FilmAccess::state(film).tiles.size();
+  const auto make = [&]() -> Result<FilmDevelopment> {
+    out.seen_.assign(tiles, 0);
+    return std::move(out);
+  };
+  return guard_memory(make, "no memory to develop a film of {} tiles", tiles);
 }
 
 Result<DevelopStats> FilmDevelopment::update(const Execution& execution) {
@@ -78,7 +77,7 @@ Result<DevelopStats> FilmDevelopment::update(const Execution& execution) {
   tiles::for_blocks(tasks, {execution.threads, kLanesPerBlock}, [&](std::size_t first, std::size_t count) {
     const std::size_t end = std::min(s.tiles.size(), (first + count) * kTilesAtOnce);
     for (std::size_t t = first * kTilesAtOnce; t < end; ++t) {
-      const std::scoped_lock lock(s.mutex_of(t));
+      const std::scoped_lock lock(s.tile_mutex(t));
       if (s.tiles[t] == nullptr) {
         ++untouched;
         continue;

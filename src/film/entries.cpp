@@ -17,32 +17,32 @@ using State = FilmAccess::State;
 constexpr int kTileShift = 2 * kernels::kFilmTileLog2;
 static_assert(kFilmTilePixels == std::size_t{1} << kTileShift);
 
-/// Additions to a tile after which its rests are carried over: with what a chunk adds on top, no rest of 2^43
+/// Additions to a tile after which its carries are normalized: with what a chunk adds on top, no rest of 2^43
 /// steps a contribution comes near the end of its limb.
-constexpr std::uint64_t kSettleAfter = std::uint64_t{1} << 18;
+constexpr std::uint64_t kNormalizeAfter = std::uint64_t{1} << 18;
 
 /// Runs within a tile that are taken one by one, and entries that each must hold for that to pay: else they
 /// are sorted first.
 constexpr std::size_t kMaxRuns = 128;
 constexpr std::size_t kEntriesARun = 8;
 
-std::size_t tile_of(std::int32_t address) {
+std::size_t tile_index(std::int32_t address) {
   return static_cast<std::size_t>(address) >> kTileShift;
 }
 
 /// A tile is about to get `count` more entries, each of `weight` contributions to a pixel at most. Its mutex
 /// held. False where there is no memory.
-bool expect(State& s, std::size_t tile, std::size_t count, std::size_t weight) {
+bool reserve_tile(State& s, std::size_t tile, std::size_t count, std::size_t weight) {
   if (s.touch(tile) == nullptr) return false;
-  // Carried over before these are counted: they are not in yet, and must not pass for settled.
-  if (s.additions[tile] + count * weight - s.settled[tile] > kSettleAfter) s.settle(tile);
+  // Before these are counted: they are not in yet, and must not pass for normalized.
+  if (s.additions[tile] + count * weight - s.normalized[tile] > kNormalizeAfter) s.normalize_carries(tile);
   s.additions[tile] += count * weight;
   return true;
 }
 
 /// Has the processor fetch what will be added to of a pixel, all of a share's pixels at once: one after the
 /// other each would be waited for.
-void fetch(const State& s, const std::int64_t* tile, std::size_t pixel) {
+void prefetch_pixel(const State& s, const std::int64_t* tile, std::size_t pixel) {
   constexpr int kToWrite = 1;
   const FilmTileLayout& l = s.layout;
   for (std::size_t q = 0; q < l.quads; ++q) __builtin_prefetch(tile + 8 * (pixel * l.quads + q), kToWrite);
@@ -76,8 +76,8 @@ Error no_memory() {
 }
 
 /// The entries from `first` on, all in `tile` unless that is -1.
-FilmEntries part_of(const FilmEntries& e, std::size_t first, std::size_t count, std::int32_t tile,
-                    std::uint32_t* numbers) {
+FilmEntries subrange(const FilmEntries& e, std::size_t first, std::size_t count, std::int32_t tile,
+                     std::uint32_t* numbers) {
   FilmEntries out = {e.sample, e.address + first, e.factor, count, tile};
   if (out.factor != nullptr) out.factor += first;
   if (out.sample != nullptr) {
@@ -96,15 +96,15 @@ FilmEntries sort_by_stripe(const FilmEntries& e, FilmScratch& scratch,
   scratch.sorted_sample.resize(std::max(scratch.sorted_sample.size(), e.count));
   if (e.factor != nullptr) scratch.sorted_factor.resize(std::max(scratch.sorted_factor.size(), e.count));
   std::array<std::size_t, State::kStripes> next{};
-  const auto stripe_of = [](std::int32_t address) { return tile_of(address) % State::kStripes; };
+  const auto stripe_index = [](std::int32_t address) { return tile_index(address) % State::kStripes; };
   for (std::size_t i = 0; i < e.count; ++i) {
-    if (e.address[i] >= 0) ++next[stripe_of(e.address[i])];
+    if (e.address[i] >= 0) ++next[stripe_index(e.address[i])];
   }
   std::size_t sum = 0;
   for (std::size_t& v : next) sum += std::exchange(v, sum);
   for (std::size_t i = 0; i < e.count; ++i) {
     if (e.address[i] < 0) continue;
-    const std::size_t to = next[stripe_of(e.address[i])]++;
+    const std::size_t to = next[stripe_index(e.address[i])]++;
     scratch.sorted_address[to] = e.address[i];
     scratch.sorted_sample[to] = e.sample == nullptr ? static_cast<std::uint32_t>(i) : e.sample[i];
     if (e.factor != nullptr) scratch.sorted_factor[to] = e.factor[i];
@@ -121,8 +121,8 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
   const std::size_t weight = s.layout.bands > 0 && s.layout.own_weights ? contributions.wavelengths : 1;
   if (entries.tile >= 0) {
     const auto tile = static_cast<std::size_t>(entries.tile);
-    const std::scoped_lock lock(s.mutex_of(tile));
-    if (!expect(s, tile, entries.count, weight)) return no_memory();
+    const std::scoped_lock lock(s.tile_mutex(tile));
+    if (!reserve_tile(s, tile, entries.count, weight)) return no_memory();
     run_kernels(s, table, contributions, entries, scratch);
     return {};
   }
@@ -146,11 +146,11 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
     scratch.sample.resize(std::max(scratch.sample.size(), entries.count));
     std::size_t first = 0;
     for (std::size_t r = 0; r < runs; ++r) {
-      const std::scoped_lock lock(s.mutex_of(run_tiles[r]));
-      if (!expect(s, run_tiles[r], run_ends[r] - first, weight)) return no_memory();
+      const std::scoped_lock lock(s.tile_mutex(run_tiles[r]));
+      if (!reserve_tile(s, run_tiles[r], run_ends[r] - first, weight)) return no_memory();
       run_kernels(s, table, contributions,
-                  part_of(entries, first, run_ends[r] - first, static_cast<std::int32_t>(run_tiles[r]),
-                          scratch.sample.data()),
+                  subrange(entries, first, run_ends[r] - first, static_cast<std::int32_t>(run_tiles[r]),
+                           scratch.sample.data()),
                   scratch);
       first = run_ends[r];
     }
@@ -163,15 +163,15 @@ Result<void> add_entries(State& s, const KernelTable& table, const FilmContribut
     if (first == ends[stripe]) continue;
     const std::scoped_lock lock(s.stripes[stripe].mutex);
     for (std::size_t i = first; i < ends[stripe];) {
-      const std::size_t tile = tile_of(sorted.address[i]);
+      const std::size_t tile = tile_index(sorted.address[i]);
       std::size_t end = i + 1;
-      while (end < ends[stripe] && tile_of(sorted.address[end]) == tile) ++end;
-      if (!expect(s, tile, end - i, weight)) return no_memory();
+      while (end < ends[stripe] && tile_index(sorted.address[end]) == tile) ++end;
+      if (!reserve_tile(s, tile, end - i, weight)) return no_memory();
       for (; i < end; ++i) {
-        fetch(s, s.tiles[tile], static_cast<std::size_t>(sorted.address[i]) % kFilmTilePixels);
+        prefetch_pixel(s, s.tiles[tile], static_cast<std::size_t>(sorted.address[i]) % kFilmTilePixels);
       }
     }
-    run_kernels(s, table, contributions, part_of(sorted, first, ends[stripe] - first, -1, nullptr), scratch);
+    run_kernels(s, table, contributions, subrange(sorted, first, ends[stripe] - first, -1, nullptr), scratch);
   }
   return {};
 }

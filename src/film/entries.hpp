@@ -10,7 +10,7 @@
 
 namespace spectile {
 
-/// What of a chunk's contributions is in the scratch.
+/// Sizes of a chunk's contributions in the scratch.
 struct FilmContributions {
   std::size_t wavelengths = 0;  ///< rows of hits
   std::size_t samples = 0;      ///< in a row of them

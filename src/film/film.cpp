@@ -5,7 +5,7 @@
 #include <shared_mutex>
 #include <spectile/film/film.hpp>
 
-#include "src/base/errors.hpp"
+#include "src/base/out_of_memory.hpp"
 #include "src/film/responses.hpp"
 #include "src/film/scratch.hpp"
 #include "src/film/state.hpp"
@@ -18,14 +18,12 @@ Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;
 
 Result<Film> Film::create(const FilmOptions& options) {
-  try {
+  const auto make = [&]() -> Result<Film> {
     SPECTILE_ASSIGN(auto state, prepare_film(options));
     SPECTILE_TRY(make_film_responses(*state));
     return Film(std::move(state));
-  } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kOutOfMemory, "no memory for a film of {} x {} pixels", options.width,
-                      options.height);
-  }
+  };
+  return guard_memory(make, "no memory for a film of {} x {} pixels", options.width, options.height);
 }
 
 const FilmOptions& Film::options() const noexcept {
@@ -47,7 +45,7 @@ FilmStats Film::stats() const {
                   .beyond_range = s.counts[kernels::kFilmBeyondRange]};
   out.tiles = s.tiles.size();
   for (std::size_t t = 0; t < s.tiles.size(); ++t) {
-    const std::scoped_lock lock(s.mutex_of(t));
+    const std::scoped_lock lock(s.tile_mutex(t));
     if (s.tiles[t] != nullptr) ++out.touched_tiles;
   }
   const std::size_t tile_bytes = s.layout.limbs * sizeof(std::int64_t);
@@ -69,20 +67,20 @@ Result<void> Film::merge(const Film& other) {
   std::lock(whole_to, whole_from);
   for (std::size_t t = 0; t < to.tiles.size(); ++t) {
     // Both films' mutexes: whichever is merged into the other at the same time.
-    const std::scoped_lock lock(to.mutex_of(t), from.mutex_of(t));
+    const std::scoped_lock lock(to.tile_mutex(t), from.tile_mutex(t));
     if (from.tiles[t] == nullptr) continue;
     if (to.touch(t) == nullptr) {
       return make_error(ErrorCode::kOutOfMemory, "no memory for another tile of the film");
     }
-    to.settle(t);
-    from.settle(t);
+    to.normalize_carries(t);
+    from.normalize_carries(t);
     for (std::size_t i = 0; i < to.layout.limbs; ++i) {
-      // Sums beyond the range may wrap round; settling finds them.
+      // Sums beyond the range may wrap around; normalizing the carries finds them.
       to.tiles[t][i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.tiles[t][i]) +
                                                  static_cast<std::uint64_t>(from.tiles[t][i]));
     }
     to.additions[t] += std::max<std::uint64_t>(1, from.additions[t]);
-    to.settle(t);
+    to.normalize_carries(t);
   }
   for (std::size_t r = 0; r < to.counts.size(); ++r) to.counts[r] += from.counts[r];
   if (from.overflown) to.overflown = true;
@@ -100,9 +98,9 @@ bool Film::same_contents(const Film& other) const {
   }
   const std::vector<std::int64_t> zeros(a.layout.limbs, 0);
   for (std::size_t t = 0; t < a.tiles.size(); ++t) {
-    const std::scoped_lock lock(a.mutex_of(t), b.mutex_of(t));
-    a.settle(t);
-    b.settle(t);
+    const std::scoped_lock lock(a.tile_mutex(t), b.tile_mutex(t));
+    a.normalize_carries(t);
+    b.normalize_carries(t);
     const std::int64_t* const limbs_a = a.tiles[t] == nullptr ? zeros.data() : a.tiles[t];
     const std::int64_t* const limbs_b = b.tiles[t] == nullptr ? zeros.data() : b.tiles[t];
     if (!std::equal(limbs_a, limbs_a + a.layout.limbs, limbs_b)) return false;

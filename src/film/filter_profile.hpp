@@ -1,4 +1,4 @@
-// What a pixel filter looks like along one axis, for those who integrate it piece by piece.
+// Pieces of a pixel filter's profile along one axis, for integration.
 #pragma once
 
 #include <spectile/film/pixel_filter.hpp>
@@ -6,7 +6,7 @@
 
 namespace spectile {
 
-/// The way to a filter's parameters, which have no names of their own for all shapes.
+/// Access to a filter's parameters.
 struct FilterAccess {
   /// Distances from 0 to the radius, ascending, between which the profile is so smooth that the ten-point
   /// rule integrates it, times a linear function, to a relative 1e-12 of its magnitude.

@@ -25,11 +25,11 @@ constexpr std::array kShapes = {Shape{FilterKind::kBox, "box", 0, "box:RADIUS"},
                                 Shape{FilterKind::kMitchell, "mitchell", 2, "mitchell:RADIUS:B:C"},
                                 Shape{FilterKind::kLanczos, "lanczos", 1, "lanczos:RADIUS:TAU"}};
 
-const Shape& shape_of(FilterKind kind) {
+const Shape& find_shape(FilterKind kind) {
   return kShapes[static_cast<std::size_t>(kind)];
 }
 
-/// What of a text an error quotes.
+/// The part of a text that an error quotes.
 std::string_view quoted(std::string_view text) {
   constexpr std::size_t kMaxQuoted = 64;
   return text.substr(0, kMaxQuoted);
@@ -139,7 +139,7 @@ Result<PixelFilter> PixelFilter::parse(std::string_view text) {
 }
 
 std::string PixelFilter::to_text() const {
-  const Shape& shape = shape_of(kind_);
+  const Shape& shape = find_shape(kind_);
   std::string text = fmt::format("{}:{}", shape.name, radius_x_);
   if (radius_y_ != radius_x_) text += fmt::format("x{}", radius_y_);
   if (shape.parameters > 0) text += fmt::format(":{}", first_);

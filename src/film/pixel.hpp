@@ -1,4 +1,4 @@
-// FilmPixels: what a pixel's limbs stand for.
+// FilmPixels: values of a pixel from its limbs.
 #pragma once
 
 #include <cmath>
@@ -78,7 +78,8 @@ class FilmPixels {
   const std::int64_t* quad(const std::int64_t* tile, std::size_t pixel, std::size_t index) const {
     return tile + 8 * (pixel * s_.layout.quads + index);
   }
-  /// Carried over first, so that equal sums are equal numbers whether or not the tile is settled.
+  /// Carried over first, so that equal sums are equal numbers whether or not the tile's carries are
+  /// normalized.
   static double sum(std::int64_t coarse, std::int64_t rest, double coarse_step) {
     film_carry(coarse, rest);
     // Exact: steps of limbs are powers of two far inside double's range.

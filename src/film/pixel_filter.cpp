@@ -11,7 +11,7 @@
 namespace spectile {
 namespace {
 
-/// sin(pi x) / (pi x); exactly 0 at whole numbers, so that a window ends where it should.
+/// sin(pi x) / (pi x); exactly 0 at integers, so that a window ends where it should.
 double sinc(double x) {
   if (x == 0) return 1;
   const double whole = std::nearbyint(x);
@@ -40,7 +40,7 @@ double mitchell_profile(double x, double b, double c) {
   return y * y * ((b + 6 * c) * y - 6 * c);
 }
 
-/// Whether it goes below 0 between 0 and 2: the outer piece does when the linear factor is below 0 at either
+/// True if it goes below 0 between 0 and 2: the outer piece does when the linear factor is below 0 at either
 /// end, the inner one at its minimum.
 bool mitchell_is_negative(double b, double c) {
   if (c > 0 || b < 0) return true;
@@ -51,7 +51,7 @@ bool mitchell_is_negative(double b, double c) {
 
 /// Integral of the profile over the axis.
 template <class Profile>
-double integral_of(const Profile& profile, const std::vector<double>& pieces) {
+double axis_integral(const Profile& profile, const std::vector<double>& pieces) {
   double sum = 0;
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     sum += quadrature::ten_points(profile, pieces[i - 1], pieces[i]);
@@ -61,7 +61,7 @@ double integral_of(const Profile& profile, const std::vector<double>& pieces) {
 
 }  // namespace
 
-/// What importance sampling along an axis needs.
+/// Table for importance sampling along an axis.
 struct PixelFilter::Table : MagnitudeTable {
   using MagnitudeTable::MagnitudeTable;
 };
@@ -167,7 +167,7 @@ Result<PixelFilter> PixelFilter::finished(PixelFilter filter) {
     }
     const auto profile = [&](double d) { return filter.profile(d, radii[axis]); };
     const std::vector<double> pieces = FilterAccess::smooth_pieces(filter, radii[axis]);
-    integrals[axis] = integral_of(profile, pieces);
+    integrals[axis] = axis_integral(profile, pieces);
     const auto table = std::make_shared<const Table>(profile, pieces);
     magnitudes[axis] = 2 * table->total();
     tables[axis] = table;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <spectile/lanes/wavelengths.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/color/kernel_tables.hpp"
 
 namespace spectile {
 namespace {
@@ -14,19 +14,19 @@ namespace {
 constexpr auto kIntervals = static_cast<std::size_t>(kLastVisibleNm - kFirstVisibleNm);
 constexpr std::size_t kRows = kIntervals + 2;  // of kernels::FilmCurves
 
-const char* name_of(Observer observer) {
+const char* observer_name(Observer observer) {
   return observer == Observer::kCie1931 ? "cie1931" : "cie1964";
 }
 
 /// Rows of three values and three differences from the tables of each curve.
-Result<FloatBuffer> rows_of(const ResponseCurves& curves) {
+Result<FloatBuffer> curve_rows(const ResponseCurves& curves) {
   auto out = FloatBuffer::create(8 * kRows);
   if (!out) return out;
   std::fill_n(out->data(), out->size(), 0.0F);
   for (std::size_t i = 0; i < kIntervals; ++i) {
     float* const row = out->data() + 8 * i;
     for (std::size_t c = 0; c < 3; ++c) {
-      const float* const pair = curves.table() + 2 * (c * kIntervals + i);
+      const float* const pair = ResponseCurvesAccess::table(curves) + 2 * (c * kIntervals + i);
       row[c] = pair[0];
       row[4 + c] = pair[1];
     }
@@ -36,7 +36,7 @@ Result<FloatBuffer> rows_of(const ResponseCurves& curves) {
   return out;
 }
 
-Result<FloatBuffer> copy_of(const float* values, std::size_t count) {
+Result<FloatBuffer> copied(const float* values, std::size_t count) {
   auto out = FloatBuffer::create(count);
   if (out) std::copy_n(values, count, out->data());
   return out;
@@ -45,19 +45,19 @@ Result<FloatBuffer> copy_of(const float* values, std::size_t count) {
 Result<FloatBuffer> observer_table(Observer observer, const FilmOptions& o) {
   if (o.input == FilmInput::kWavelengths) {
     SPECTILE_ASSIGN(const auto curves, ResponseCurves::of_observer(observer));
-    return rows_of(curves);
+    return curve_rows(curves);
   }
   SPECTILE_ASSIGN(const auto projector, Projector::emissive(o.bands, observer));
-  return copy_of(projector.float_weights(), film_response_floats(o));
+  return copied(ProjectorAccess::weights(projector), film_response_floats(o));
 }
 
 Result<FloatBuffer> sensor_table(const Sensor& sensor, const FilmOptions& o) {
   if (o.input == FilmInput::kWavelengths) {
     SPECTILE_ASSIGN(const auto curves, sensor.response_curves());
-    return rows_of(curves);
+    return curve_rows(curves);
   }
-  SPECTILE_ASSIGN(const auto projector, SensorProjector::create(sensor, o.bands));
-  return copy_of(projector.float_weights(), film_response_floats(o));
+  SPECTILE_ASSIGN(const auto projector, Projector::emissive(o.bands, sensor));
+  return copied(ProjectorAccess::weights(projector), film_response_floats(o));
 }
 
 std::string window_text(const PixelWindow& w) {
@@ -100,14 +100,14 @@ Result<void> make_film_responses(FilmAccess::State& s) {
     s.responses.push_back({std::move(name), *std::move(table), largest});
     return {};
   };
-  if (o.xyz) SPECTILE_TRY(add(name_of(*o.xyz), observer_table(*o.xyz, o)));
+  if (o.xyz) SPECTILE_TRY(add(observer_name(*o.xyz), observer_table(*o.xyz, o)));
   for (const NamedSensor& sensor : o.sensors) {
     SPECTILE_TRY(add(sensor.name, sensor_table(sensor.sensor, o)));
   }
   if (s.responses.empty()) {
     // The weight needs a quad of its own; its colour is black.
     const std::vector<float> zeros(film_response_floats(o), 0.0F);
-    SPECTILE_TRY(add("none", copy_of(zeros.data(), zeros.size())));
+    SPECTILE_TRY(add("none", copied(zeros.data(), zeros.size())));
   }
   return {};
 }

@@ -23,7 +23,7 @@ struct Axis {
   const float* position;
   int low, high;  ///< pixels of the window, the last exclusive
   int* first;
-  float* weights;  ///< [most_pixels][kPart]
+  float* weights;  ///< [max_pixels][kPart]
 
   /// Pixels whose centres lie in (position - radius, position + radius]; 0 beyond.
   void measure(const kernels::KernelTable& table, std::size_t n) {
@@ -33,7 +33,7 @@ struct Axis {
       // A position that is far away, or no number, is refused before its footprint is used.
       first[i] = std::abs(start) < 0x1p24 ? static_cast<int>(std::floor(start)) + 1 : 0;
     }
-    for (int j = 0; j < profile.most_pixels; ++j) {
+    for (int j = 0; j < profile.max_pixels; ++j) {
       float* const row = weights + static_cast<std::size_t>(j) * kPart;
       for (std::size_t i = 0; i < n; ++i) {
         const double distance = (static_cast<double>(first[i] + j) + 0.5) - static_cast<double>(position[i]);
@@ -47,10 +47,10 @@ struct Axis {
   }
   /// The sample's pixels within the window, counted from its first one.
   int from(std::size_t i) const { return std::max(0, low - first[i]); }
-  int to(std::size_t i) const { return std::min(profile.most_pixels, high - first[i]); }
+  int to(std::size_t i) const { return std::min(profile.max_pixels, high - first[i]); }
 };
 
-std::int32_t reason_of(const State& s, float x, float y, float w, std::int32_t known, bool reached) {
+std::int32_t rejection_reason(const State& s, float x, float y, float w, std::int32_t known, bool reached) {
   std::int32_t out = kernels::kFilmAccepted;
   const auto found = [&](std::int32_t reason) {
     if (out == kernels::kFilmAccepted || reason < out) out = reason;
@@ -72,8 +72,8 @@ std::int32_t reason_of(const State& s, float x, float y, float w, std::int32_t k
 Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContributions& contributions,
                    const float* x, const float* y, const float* weight, std::size_t n,
                    std::array<std::uint64_t, kernels::kFilmReasons>& counts, FilmScratch& scratch) {
-  const auto columns = static_cast<std::size_t>(s.along_x.most_pixels);
-  const auto rows = static_cast<std::size_t>(s.along_y.most_pixels);
+  const auto columns = static_cast<std::size_t>(s.along_x.max_pixels);
+  const auto rows = static_cast<std::size_t>(s.along_y.max_pixels);
   if (scratch.profiles.size() < (columns + rows) * kPart) {
     SPECTILE_ASSIGN(scratch.profiles, FloatBuffer::create((columns + rows) * kPart));
     std::fill_n(scratch.profiles.data(), scratch.profiles.size(), 0.0F);
@@ -85,7 +85,7 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
   scratch.sample.resize(std::max(scratch.sample.size(), most));
   scratch.address.resize(std::max(scratch.address.size(), most));
   scratch.factor.resize(std::max(scratch.factor.size(), most));
-  // What a column adds to an address.
+  // A column's part of an address.
   std::vector<std::int32_t> column_part(columns);
   for (std::size_t start = 0; start < n; start += at_once) {
     const std::size_t part = std::min(at_once, n - start);
@@ -119,8 +119,8 @@ Result<void> splat(State& s, const kernels::KernelTable& table, const FilmContri
         }
       }
       const std::int32_t reason =
-          reason_of(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
-                    scratch.reasons[start + i], count > before);
+          rejection_reason(s, x[start + i], y[start + i], weight == nullptr ? 1.0F : weight[start + i],
+                           scratch.reasons[start + i], count > before);
       ++counts[static_cast<std::size_t>(reason)];
       if (reason != kernels::kFilmAccepted) count = before;
     }

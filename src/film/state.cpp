@@ -1,4 +1,4 @@
-// What a film's options come to, and its tiles.
+// State of a film from its options, and its tiles.
 #include "src/film/state.hpp"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ static_assert(kFilmTile == 1 << kernels::kFilmTileLog2);
 
 constexpr int kMaxSide = 1 << 18;
 constexpr std::size_t kMaxPixels = std::size_t{1} << 31;  // an address is 32 bits, with a sign
-constexpr int kLowestRange = -32;
-constexpr int kHighestRange = 96;
-constexpr int kLowestWeightRange = -16;
-constexpr int kHighestWeightRange = 32;
+constexpr int kMinRange = -32;
+constexpr int kMaxRange = 96;
+constexpr int kMinWeightRange = -16;
+constexpr int kMaxWeightRange = 32;
 
 /// 1.5 * 2^52 steps of 2^log2_step.
 double magic(int log2_step) {
@@ -60,18 +60,18 @@ Result<void> check_contents(const FilmOptions& o) {
     return make_error(ErrorCode::kBadArgument, "a maximum component of {} is not above 0",
                       o.maximum_component);
   }
-  if (o.range < kLowestRange || o.range > kHighestRange) {
-    return make_error(ErrorCode::kBadArgument, "a range of 2^{} is not from 2^{} to 2^{}", o.range,
-                      kLowestRange, kHighestRange);
+  if (o.range < kMinRange || o.range > kMaxRange) {
+    return make_error(ErrorCode::kBadArgument, "a range of 2^{} is not from 2^{} to 2^{}", o.range, kMinRange,
+                      kMaxRange);
   }
-  if (o.weight_range < kLowestWeightRange || o.weight_range > kHighestWeightRange) {
+  if (o.weight_range < kMinWeightRange || o.weight_range > kMaxWeightRange) {
     return make_error(ErrorCode::kBadArgument, "a weight range of 2^{} is not from 2^{} to 2^{}",
-                      o.weight_range, kLowestWeightRange, kHighestWeightRange);
+                      o.weight_range, kMinWeightRange, kMaxWeightRange);
   }
   return {};
 }
 
-FilmTileLayout layout_of(const FilmOptions& o) {
+FilmTileLayout tile_layout(const FilmOptions& o) {
   FilmTileLayout out;
   out.quads = std::max<std::size_t>(1, (o.xyz ? 1 : 0) + o.sensors.size());
   out.bands = o.spectral ? o.bands.count() : 0;
@@ -131,18 +131,18 @@ constexpr std::int64_t kMaxCoarse = std::int64_t{1} << 62;
 
 }  // namespace
 
-void Film::State::settle(std::size_t tile) noexcept {
+void Film::State::normalize_carries(std::size_t tile) noexcept {
   std::int64_t* const limbs = tiles[tile];
-  if (limbs == nullptr || settled[tile] == additions[tile]) return;
-  settled[tile] = additions[tile];
+  if (limbs == nullptr || normalized[tile] == additions[tile]) return;
+  normalized[tile] = additions[tile];
   bool fits = true;
-  const auto settle_four = [&](std::int64_t* at) {
+  const auto normalize_four = [&](std::int64_t* at) {
     for (std::size_t c = 0; c < 4; ++c) {
       film_carry(at[c], at[4 + c]);
       fits = fits && at[c] <= kMaxCoarse && at[c] >= -kMaxCoarse;
     }
   };
-  for (std::size_t q = 0; q < layout.quads * kFilmTilePixels; ++q) settle_four(limbs + 8 * q);
+  for (std::size_t q = 0; q < layout.quads * kFilmTilePixels; ++q) normalize_four(limbs + 8 * q);
   std::int64_t* const spectrum = limbs + layout.spectrum_at;
   if (layout.own_weights) {
     for (std::size_t b = 0; b < layout.bands * kFilmTilePixels; ++b) {
@@ -152,7 +152,7 @@ void Film::State::settle(std::size_t tile) noexcept {
       }
     }
   } else {
-    for (std::size_t q = 0; q < layout.band_quads() * kFilmTilePixels; ++q) settle_four(spectrum + 8 * q);
+    for (std::size_t q = 0; q < layout.band_quads() * kFilmTilePixels; ++q) normalize_four(spectrum + 8 * q);
   }
   if (layout.moments) {
     std::int64_t* const moments = limbs + layout.moments_at;
@@ -192,7 +192,7 @@ Result<std::unique_ptr<FilmAccess::State>> prepare_film(const FilmOptions& optio
                      tile_y0 * kFilmTile,
                      s.tiles_x,
                      options.negative_weights};
-  s.layout = layout_of(options);
+  s.layout = tile_layout(options);
   s.limits = {options.maximum_component, std::ldexp(1.0F, options.range),
               std::ldexp(1.0F, options.weight_range)};
   make_grids(s);
@@ -210,7 +210,7 @@ Result<std::unique_ptr<FilmAccess::State>> prepare_film(const FilmOptions& optio
   s.stripes = std::make_unique<FilmAccess::State::Stripe[]>(FilmAccess::State::kStripes);
   s.tiles.assign(tiles, nullptr);
   s.additions.assign(tiles, 0);
-  s.settled.assign(tiles, 0);
+  s.normalized.assign(tiles, 0);
   return state;
 }
 

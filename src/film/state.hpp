@@ -1,4 +1,4 @@
-// What a film consists of: its options made ready for the kernels, and its tiles of exact sums.
+// State of a film: its options prepared for the kernels, and its tiles of exact sums.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct FilmProfile {
   FloatBuffer pairs;
   kernels::EvenTable table;
   float radius = 0.5F;
-  int most_pixels = 1;  ///< that a sample reaches along the axis
+  int max_pixels = 1;  ///< that a sample reaches along the axis
 };
 
 /// Where a pixel of the film is in its tile.
@@ -93,9 +93,9 @@ struct Film::State {
   };
   static constexpr std::size_t kStripes = 64;
   std::unique_ptr<Stripe[]> stripes;
-  std::vector<std::int64_t*> tiles;      ///< null: untouched
-  std::vector<std::uint64_t> additions;  ///< to a tile: also its version
-  std::vector<std::uint64_t> settled;    ///< additions when its limbs were last carried over
+  std::vector<std::int64_t*> tiles;       ///< null: untouched
+  std::vector<std::uint64_t> additions;   ///< to a tile: also its version
+  std::vector<std::uint64_t> normalized;  ///< additions when its carries were last normalized
   ZeroedPages pages;
   std::array<std::atomic<std::uint64_t>, kernels::kFilmReasons> counts{};
   std::atomic<bool> overflown = false;
@@ -109,7 +109,7 @@ struct Film::State {
   State();
   ~State();
 
-  std::mutex& mutex_of(std::size_t tile) const noexcept { return stripes[tile % kStripes].mutex; }
+  std::mutex& tile_mutex(std::size_t tile) const noexcept { return stripes[tile % kStripes].mutex; }
   /// The tile of a pixel in the window.
   std::size_t tile_at(int x, int y) const noexcept {
     const auto column = static_cast<std::size_t>((x - kernel_window.origin_x) / kFilmTile);
@@ -120,15 +120,15 @@ struct Film::State {
   PixelWindow tile_window(std::size_t tile) const noexcept;
   /// Memory for a tile, where it has none; its mutex held. Null where there is no memory.
   std::int64_t* touch(std::size_t tile) noexcept;
-  /// Carries rests over into the limbs before them, so that equal sums have equal limbs; its mutex held.
-  void settle(std::size_t tile) noexcept;
+  /// Normalizes the carries, so that equal sums have equal limbs; its mutex held.
+  void normalize_carries(std::size_t tile) noexcept;
   /// log2 of a limb's step, of contributions and of weights, coarse and rest.
   double coarse_step(int range) const noexcept;
 };
 
-/// The way to a film's insides for the operations on films.
+/// Access to a film's state for the operations on films.
 struct FilmAccess {
-  /// Developing and saving a film that does not change still settle its limbs.
+  /// Developing and saving a film that does not change still normalize its carries.
   static Film::State& state(const Film& film) noexcept { return *film.state_; }
   static Film make(std::unique_ptr<Film::State> state) { return Film(std::move(state)); }
   using State = Film::State;

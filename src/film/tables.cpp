@@ -85,7 +85,7 @@ Result<void> make_film_profile(FilmProfile& out, double radius, const std::funct
     pair[1] = static_cast<float>(at(std::min(radius, (i + 1) * step)) - here);
   }
   out.radius = static_cast<float>(radius);
-  out.most_pixels = static_cast<int>(std::ceil(2 * radius)) + 1;
+  out.max_pixels = static_cast<int>(std::ceil(2 * radius)) + 1;
   out.table = {out.pairs.data(), 0, static_cast<float>(intervals / radius), intervals};
   return {};
 }

@@ -64,7 +64,7 @@ Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const E
 
 /// Runs kernel(table, words, first block, blocks) for a mask over `lanes`, and clears the padding's bits.
 template <class Kernel>
-Result<LaneMask> mask_of(std::size_t lanes, const Execution& execution, Kernel kernel) {
+Result<LaneMask> compute_mask(std::size_t lanes, const Execution& execution, Kernel kernel) {
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   LaneMask mask(blocks_for(lanes));
   tiles::for_blocks(mask.size(), execution, [&](std::size_t first, std::size_t count) {
@@ -182,19 +182,19 @@ Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execu
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, execution,
-                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                   k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
-                 });
+  return compute_mask(a.lanes, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                        k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+                      });
 }
 
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution) {
   SPECTILE_TRY(shape::aligned(a.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, execution,
-                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                   k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
-                 });
+  return compute_mask(a.lanes, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                        k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+                      });
 }
 
 Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution) {
@@ -202,11 +202,11 @@ Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const E
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(b.data));
   const std::size_t bands = a.bands.count();
-  return mask_of(a.lanes, execution,
-                 [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                   const std::size_t at = first * bands * kLanesPerBlock;
-                   k.equal_mask(mask, a.data + at, b.data + at, bands, count);
-                 });
+  return compute_mask(a.lanes, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
+                        const std::size_t at = first * bands * kLanesPerBlock;
+                        k.equal_mask(mask, a.data + at, b.data + at, bands, count);
+                      });
 }
 
 Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& execution) {

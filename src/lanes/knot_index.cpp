@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/errors.hpp"
+
 namespace spectile {
 namespace {
 
@@ -18,16 +20,16 @@ Result<KnotIndex> index_knots(std::span<const float> knots) {
   KnotIndex out;
   const std::size_t buckets = std::clamp<std::size_t>(kBucketsPerKnot * knots.size(), 1, kMaxBuckets);
   const float range = knots.back() - knots.front();
-  // What a bucket's wavelengths are is up to float rounding: the knots are counted as the kernel divides. All
-  // are in the first one where they are too close together for more.
+  // A bucket's limits depend on float rounding: the knots are counted with the kernel's own arithmetic. Where
+  // they are too close together, all are in the first bucket.
   out.buckets_per_nm = range > 0 ? static_cast<float>(buckets) / range : 0.0F;
   if (!std::isfinite(out.buckets_per_nm)) out.buckets_per_nm = 0;
-  const auto bucket_of = [&](float nm) {
+  const auto bucket_index = [&](float nm) {
     return static_cast<std::size_t>(
         std::min(static_cast<float>(buckets - 1), (nm - knots.front()) * out.buckets_per_nm));
   };
   std::vector<std::size_t> last_in(buckets, 0);  // last knot up to the bucket's end
-  for (std::size_t i = 0; i < knots.size(); ++i) last_in[bucket_of(knots[i])] = i;
+  for (std::size_t i = 0; i < knots.size(); ++i) last_in[bucket_index(knots[i])] = i;
   for (std::size_t b = 1; b < buckets; ++b) last_in[b] = std::max(last_in[b], last_in[b - 1]);
   std::size_t most = 0;
   for (std::size_t b = 0; b < buckets; ++b) {

@@ -8,7 +8,7 @@
 
 namespace spectile {
 
-/// What kernels::KnotTable and kernels::BucketTable search in.
+/// The knots and buckets that kernels::KnotTable and kernels::BucketTable search.
 struct KnotIndex {
   FloatBuffer knots;                ///< [count + 2^halvings], infinities from count on
   std::vector<std::int32_t> start;  ///< [buckets]

@@ -24,8 +24,8 @@ inline Result<void> same_lanes(std::size_t a, std::size_t b) {
   return {};
 }
 
-/// `what` says what the bands were expected by: "the projector".
-inline Result<void> bands_of(const char* what, const Bands& expected, const Bands& given) {
+/// `what` expects the bands: "the projector".
+inline Result<void> same_bands(const char* what, const Bands& expected, const Bands& given) {
   if (expected == given) return {};
   return make_error(ErrorCode::kBandsMismatch, "the spectra have bands {}, {} expects {}",
                     given.description(), what, expected.description());
@@ -34,6 +34,11 @@ inline Result<void> bands_of(const char* what, const Bands& expected, const Band
 inline Result<void> aligned(const void* p) {
   if (reinterpret_cast<std::uintptr_t>(p) % 64 == 0) return {};
   return make_error(ErrorCode::kBadArgument, "samples must start at a multiple of 64 bytes");
+}
+
+inline Result<void> aligned(const ColorView& color) {
+  for (const float* plane : color.c) SPECTILE_TRY(aligned(plane));
+  return {};
 }
 
 }  // namespace spectile::shape

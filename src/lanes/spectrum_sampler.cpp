@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <spectile/lanes/wavelengths.hpp>
-#include <spectile/radiometry/radiometry.hpp>
+#include <spectile/constants.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -32,7 +32,7 @@ bool fits_float(double v) {
   return std::abs(v) <= static_cast<double>(std::numeric_limits<float>::max());
 }
 
-Result<Knots> knots_of(const MeasuredSpectrum& spectrum, bool held) {
+Result<Knots> make_knots(const MeasuredSpectrum& spectrum, bool held) {
   const auto w = spectrum.wavelengths_nm();
   const auto v = spectrum.values();
   const std::size_t n = w.size();
@@ -80,7 +80,7 @@ struct Even {
   EvenTable table;
 };
 
-Result<Even> even_of(const DenselySampledSpectrum& spectrum) {
+Result<Even> make_even_table(const DenselySampledSpectrum& spectrum) {
   const auto v = spectrum.values();
   SPECTILE_ASSIGN(auto pairs, FloatBuffer::create(2 * (v.size() - 1)));
   Even out;
@@ -100,7 +100,7 @@ Result<Even> even_of(const DenselySampledSpectrum& spectrum) {
 
 }  // namespace
 
-/// What a distribution's kernel needs; which one it is says the kind.
+/// A distribution's kernel, by kind, and its tables.
 struct SpectrumSampler::Tables {
   enum class Kind { kConstant, kKnots, kEven, kPlanck, kGaussians, kSigmoid } kind = Kind::kConstant;
   float constant = 0;
@@ -124,7 +124,7 @@ struct SpectrumSampler::Tables {
   Result<void> set(const PiecewiseLinearSpectrum& s) { return set_knots(s.measured(), false, Kind::kKnots); }
   Result<void> set(const DenselySampledSpectrum& s) {
     kind = Kind::kEven;
-    SPECTILE_ASSIGN(even, even_of(s));
+    SPECTILE_ASSIGN(even, make_even_table(s));
     return {};
   }
   Result<void> set(const BlackbodySpectrum& s) {
@@ -167,7 +167,7 @@ struct SpectrumSampler::Tables {
   }
   Result<void> set_knots(const MeasuredSpectrum& samples, bool held, Kind of) {
     kind = of;
-    SPECTILE_ASSIGN(knots, knots_of(samples, held));
+    SPECTILE_ASSIGN(knots, make_knots(samples, held));
     return {};
   }
 

@@ -143,11 +143,8 @@ std::vector<Responses::Triple> Responses::computed(const ColourKey& key) {
     return out;
   }
   std::vector<Triple> weights;
-  if (key.observer) {
-    if (const auto projector = Projector::emissive(*key.bands, *key.observer)) {
-      weights.assign(projector->weights().begin(), projector->weights().end());
-    }
-  } else if (const auto projector = SensorProjector::create(key.sensor, *key.bands)) {
+  if (const auto projector = key.observer ? Projector::emissive(*key.bands, *key.observer)
+                                          : Projector::emissive(*key.bands, key.sensor)) {
     weights.assign(projector->weights().begin(), projector->weights().end());
   }
   const auto of_bands = averages(*key.bands, false);

@@ -7,18 +7,19 @@
 #include <cstring>
 #include <thread>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::rows {
 namespace {
 
 // Entries at most: 32 MiB.
 constexpr std::uint64_t kMaxEntries = std::uint64_t{1} << 20;
-// Places where a colour may be.
+// Entries that are probed for a colour.
 constexpr std::uint32_t kProbes = 16;
-// Lanes after which a batch judges whether looking for them is worth while, and lines that it then goes
-// without at first and at most.
-constexpr std::uint64_t kJudged = 4096;
-constexpr int kFirstPatience = 16;
-constexpr int kMaxPatience = 1024;
+// Lanes after which a batch evaluates whether the table pays, and lines of the back-off where it does not.
+constexpr std::uint64_t kEvaluatedLanes = 4096;
+constexpr int kMinBackOff = 16;
+constexpr int kMaxBackOff = 1024;
 
 // An entry's state, in the order in which it goes through them.
 constexpr std::uint32_t kFree = 0;
@@ -27,7 +28,7 @@ constexpr std::uint32_t kNamed = 2;    // its coefficients are not
 constexpr std::uint32_t kInside = 3;
 constexpr std::uint32_t kOutside = 4;
 
-std::uint32_t hash_of(const float* const rgb[3], std::size_t i) {
+std::uint32_t hash_color(const float* const rgb[3], std::size_t i) {
   // Odd constants from the digits of the golden ratio and of e.
   std::uint64_t h = std::bit_cast<std::uint32_t>(rgb[0][i]) * 0x9E3779B97F4A7C15ULL;
   h = (h ^ std::bit_cast<std::uint32_t>(rgb[1][i])) * 0xB7E151628AED2A6BULL;
@@ -60,7 +61,7 @@ Result<ColorTable::Batch> ColorTable::Batch::create(std::size_t lanes) {
   return batch;
 }
 
-ColorTable::ColorTable(const kernels::KernelTable& kernels, const Upsampler& upsampler, OutOfGamut policy,
+ColorTable::ColorTable(const kernels::KernelTable& kernels, const Upsampler& upsampler, GamutPolicy policy,
                        std::uint64_t lanes)
     : kernels_(kernels), upsampler_(upsampler), policy_(policy) {
   const std::uint64_t entries = std::clamp<std::uint64_t>(std::bit_ceil(2 * lanes), 1024, kMaxEntries);
@@ -73,12 +74,12 @@ bool ColorTable::worth_while(Batch& batch) const {
     --batch.idle_lines_;
     return false;
   }
-  if (batch.recent_lanes_ >= kJudged) {
-    // A look costs about as much as half a solution.
+  if (batch.recent_lanes_ >= kEvaluatedLanes) {
+    // Looking a colour up costs about as much as half a solution.
     const bool good = 2 * batch.recent_colors_ <= batch.recent_lanes_;
     batch.recent_lanes_ = batch.recent_colors_ = 0;
-    batch.patience_ = good ? 0 : std::clamp(4 * batch.patience_, kFirstPatience, kMaxPatience);
-    batch.idle_lines_ = batch.patience_;
+    batch.back_off_ = good ? 0 : std::clamp(4 * batch.back_off_, kMinBackOff, kMaxBackOff);
+    batch.idle_lines_ = batch.back_off_;
   }
   return true;
 }
@@ -103,7 +104,7 @@ std::int64_t ColorTable::find(const std::uint32_t rgb[3], std::uint32_t hash, bo
 
 void ColorTable::add(Batch& batch, const float* const rgb[3], std::size_t n) {
   // Hashes first, so that the entries are on their way when they are looked at.
-  for (std::size_t i = 0; i < n; ++i) batch.hash_[i] = hash_of(rgb, i);
+  for (std::size_t i = 0; i < n; ++i) batch.hash_[i] = hash_color(rgb, i);
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < n; ++i) {
     if (i + kAhead < n) __builtin_prefetch(&entries_[batch.hash_[i + kAhead] & mask_]);

@@ -44,23 +44,23 @@ class ColorTable {
     std::size_t colors_ = 0;
     std::uint64_t recent_lanes_ = 0;
     std::uint64_t recent_colors_ = 0;
-    int idle_lines_ = 0;  // for which nothing is to be looked for
-    int patience_ = 0;    // ... the next time
+    int idle_lines_ = 0;  // left of the back-off
+    int back_off_ = 0;    // lines without the table, the next time
   };
 
-  /// `lanes`: of all that will be looked up, for a table that is no larger than it can need.
-  ColorTable(const kernels::KernelTable& kernels, const Upsampler& upsampler, OutOfGamut policy,
+  /// `lanes`: all that will be looked up; the table is no larger than they can need.
+  ColorTable(const kernels::KernelTable& kernels, const Upsampler& upsampler, GamutPolicy policy,
              std::uint64_t lanes);
 
-  /// Whether it is worth while to look for a line's colours; asked once a line.
+  /// True if the table pays for the next line; asked once a line.
   bool worth_while(Batch& batch) const;
 
   /// Looks for `n` lanes' colours, which become the batch's next lanes.
   void add(Batch& batch, const float* const rgb[3], std::size_t n);
   /// Solves those that nobody had, once all lanes of a line are there.
   void solve(Batch& batch);
-  /// The coefficients of `n` lanes from the batch's lane `first` on. `outside` [n]: whether the method cannot
-  /// make the colour.
+  /// The coefficients of `n` lanes from the batch's lane `first` on. `outside` [n]: 1 for colours
+  /// that the method cannot make.
   void take(const Batch& batch, std::size_t first, std::size_t n, const Coefficients& out,
             std::uint8_t* outside) const;
   /// Makes the batch empty.
@@ -77,7 +77,7 @@ class ColorTable {
 
   const kernels::KernelTable& kernels_;
   const Upsampler& upsampler_;
-  OutOfGamut policy_;
+  GamutPolicy policy_;
   std::unique_ptr<Entry[]> entries_;
   std::uint32_t mask_;
 };

@@ -16,8 +16,8 @@ constexpr std::array<std::array<double, 3>, 7> kCorners = {
     {{1, 1, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// The rows whose squares sum to the integral of the squared second derivative, for variables that start at
-/// `first`; less those of `around` where there is one.
-void add_roughness(const Bands& bands, std::size_t first, std::span<const double> around,
+/// `first`; less those of `reference` where there is one.
+void add_roughness(const Bands& bands, std::size_t first, std::span<const double> reference,
                    std::vector<LinearTerm>& squares) {
   const std::size_t n = bands.count();
   if (n < 3) return;
@@ -30,7 +30,7 @@ void add_roughness(const Bands& bands, std::size_t first, std::span<const double
     LinearTerm term;
     for (std::size_t k = 0; k < 3; ++k) {
       term.coefficients.emplace_back(first + i - 1 + k, c[k]);
-      if (!around.empty()) term.value += c[k] * around[i - 1 + k];
+      if (!reference.empty()) term.value += c[k] * reference[i - 1 + k];
     }
     squares.push_back(std::move(term));
   }

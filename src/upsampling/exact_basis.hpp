@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/upsampling/working_space.hpp"
+#include "src/color/working_space.hpp"
 
 namespace spectile {
 

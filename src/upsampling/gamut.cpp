@@ -1,4 +1,4 @@
-// Colours that a method cannot make, and the way to those that it can.
+// Colours that a method cannot make, moved to those that it can.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,7 +20,7 @@ using kernels::kLanes;
 // the colour moved is a little brighter to the search, and may have to move again.
 constexpr int kMoves = 6;
 
-float luminance_of(const Upsampler& upsampler, const float v[3]) {
+float weighted_luminance(const Upsampler& upsampler, const float v[3]) {
   const auto& weights = upsampler.luminance();
   return (weights[0] * v[0] + weights[1] * v[1]) + weights[2] * v[2];
 }
@@ -41,10 +41,10 @@ GamutReport count_negative(const float* const rgb[3], std::size_t n, std::uint8_
   return report;
 }
 
-GamutReport limit_bases(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                        OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
+GamutReport clip_bases(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
+                       GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside) {
   const GamutReport report = count_negative(rgb, n, lanes_outside);
-  if (report.outside == 0 || policy == OutOfGamut::kKeep) return report;
+  if (report.outside == 0 || policy != GamutPolicy::kClip) return report;
   for (std::size_t at = 0; at < n; at += kLanes) {
     float* const block[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     std::uint64_t moved = 0;
@@ -64,7 +64,7 @@ struct Group {
   std::size_t count = 0;
 };
 
-/// Which colours of a group have no coefficients.
+/// The colours of a group that have no coefficients, a bit each.
 std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group) {
   const float* const rgb[3] = {group.rgb[0], group.rgb[1], group.rgb[2]};
   const Coefficients out = {{group.c[0], group.c[1], group.c[2]},
@@ -84,14 +84,14 @@ std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& u
 
 void move_lane(const Upsampler& upsampler, Group& group, std::size_t i, bool to_grey) {
   const float v[3] = {group.rgb[0][i], group.rgb[1][i], group.rgb[2][i]};
-  const float y = std::max(0.0F, luminance_of(upsampler, v));
+  const float y = std::max(0.0F, weighted_luminance(upsampler, v));
   const float grey = upsampler.quantity() == Quantity::kReflectance ? std::min(1.0F, y) : y;
   const float part = to_grey ? 0.0F : group.part[i];
   for (std::size_t k = 0; k < 3; ++k) group.rgb[k][i] = part == 0 ? grey : grey + part * (v[k] - grey);
 }
 
-void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
-                 float* const rgb[3], OutOfGamut policy, GamutReport& report, std::uint8_t* lanes_outside) {
+void clip_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
+                float* const rgb[3], GamutPolicy policy, GamutReport& report, std::uint8_t* lanes_outside) {
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
   std::uint64_t outside = unsolvable(kernels, upsampler, group);
   for (std::uint64_t left = outside; left != 0; left &= left - 1) {
@@ -99,7 +99,7 @@ void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
     if (report.outside++ == 0) report.first = static_cast<std::int64_t>(lane);
     if (lanes_outside != nullptr) lanes_outside[lane] = 1;
   }
-  if (outside != 0 && policy == OutOfGamut::kClip) {
+  if (outside != 0 && policy == GamutPolicy::kClip) {
     for (int move = 0; outside != 0; ++move) {
       for (std::uint64_t left = outside; left != 0; left &= left - 1) {
         move_lane(upsampler, group, static_cast<std::size_t>(std::countr_zero(left)), move == kMoves);
@@ -114,40 +114,39 @@ void limit_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
   group.count = 0;
 }
 
-GamutReport limit_sigmoid(const kernels::KernelTable& kernels, const Upsampler& upsampler,
-                          float* const rgb[3], OutOfGamut policy, std::size_t n,
-                          std::uint8_t* lanes_outside) {
+GamutReport clip_sigmoid(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
+                         GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside) {
   GamutReport report;
   if (lanes_outside != nullptr) std::fill_n(lanes_outside, n, std::uint8_t{0});
   const float highest =
       upsampler.quantity() == Quantity::kReflectance ? 1.0F : std::numeric_limits<float>::infinity();
   Group group;
-  const bool everywhere = misses_inside(upsampler);
+  const bool only_beyond = covers_unit_cube(upsampler);
   const auto beyond = [highest](float v) { return v < 0 || v > highest; };
   for (std::size_t i = 0; i < n; ++i) {
     if (!is_finite(rgb, i)) continue;
-    if (!everywhere && !beyond(rgb[0][i]) && !beyond(rgb[1][i]) && !beyond(rgb[2][i])) continue;
+    if (only_beyond && !beyond(rgb[0][i]) && !beyond(rgb[1][i]) && !beyond(rgb[2][i])) continue;
     for (std::size_t k = 0; k < 3; ++k) group.rgb[k][group.count] = rgb[k][i];
     group.lane[group.count++] = i;
-    if (group.count == kLanes) limit_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
+    if (group.count == kLanes) clip_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
   }
-  if (group.count > 0) limit_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
+  if (group.count > 0) clip_group(kernels, upsampler, group, rgb, policy, report, lanes_outside);
   return report;
 }
 
 }  // namespace
 
 GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                       OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside) {
-  return mixes_bases(upsampler) ? limit_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
-                                : limit_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
+                       GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside) {
+  return mixes_bases(upsampler) ? clip_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
+                                : clip_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
 }
 
 }  // namespace rows
 
-Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb, OutOfGamut policy,
+Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb, GamutPolicy policy,
                                const Execution& execution) {
-  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(rgb));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t blocks = blocks_for(rgb.lanes);
   std::vector<GamutReport> reports(blocks);
@@ -163,6 +162,11 @@ Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb, OutOfG
   for (const GamutReport& report : reports) {
     if (report.outside > 0 && total.outside == 0) total.first = report.first;
     total.outside += report.outside;
+  }
+  if (policy == GamutPolicy::kError && total.outside > 0) {
+    return make_error(ErrorCode::kBadArgument,
+                      "{} colours of the batch are out of gamut, the first in lane {}", total.outside,
+                      total.first);
   }
   return total;
 }

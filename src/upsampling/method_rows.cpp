@@ -32,7 +32,7 @@ void normalize(const float* const rgb[3], float* const out[3], float* scale, std
   }
 }
 
-/// Lanes gathered for sigmoid_continuation.
+/// Lanes gathered for the continuation.
 struct Group {
   alignas(64) float rgb[3][kLanes];
   alignas(64) float c[3][kLanes];
@@ -41,14 +41,14 @@ struct Group {
   std::size_t count = 0;
 };
 
-void reach_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
-                 float* const c[3], std::uint64_t* unsolved, float* part) {
+void continue_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
+                    float* const c[3], std::uint64_t* unsolved, float* part) {
   if (group.count == 0) return;
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
   float* const out[3] = {group.c[0], group.c[1], group.c[2]};
   const float* const rgb[3] = {group.rgb[0], group.rgb[1], group.rgb[2]};
-  kernels.sigmoid_continuation(out, group.part, rgb, upsampler.sigmoid()->table, upsampler.luminance().data(),
-                               kLanes);
+  kernels.sigmoid_continuation(out, group.part, rgb, UpsamplerAccess::sigmoid(upsampler)->table,
+                               upsampler.luminance().data(), kLanes);
   for (std::size_t i = 0; i < group.count; ++i) {
     const std::size_t lane = group.lane[i];
     for (std::size_t k = 0; k < 3; ++k) c[k][lane] = group.c[k][i];
@@ -58,20 +58,20 @@ void reach_group(const kernels::KernelTable& kernels, const Upsampler& upsampler
   group.count = 0;
 }
 
-/// Goes the long way for the lanes that the quick search left unsolved.
-void reach_unsolved(const kernels::KernelTable& kernels, const Upsampler& upsampler,
-                    const float* const rgb[3], float* const c[3], std::uint64_t* unsolved, float* part,
-                    std::size_t n) {
+/// Solves the lanes that the fast search left unsolved by continuation from the grey axis.
+void continue_unsolved(const kernels::KernelTable& kernels, const Upsampler& upsampler,
+                       const float* const rgb[3], float* const c[3], std::uint64_t* unsolved, float* part,
+                       std::size_t n) {
   Group group;
   for (std::size_t block = 0; block < n / kLanes; ++block) {
     for (std::uint64_t left = unsolved[block]; left != 0; left &= left - 1) {
       const std::size_t lane = block * kLanes + static_cast<std::size_t>(std::countr_zero(left));
       for (std::size_t k = 0; k < 3; ++k) group.rgb[k][group.count] = rgb[k][lane];
       group.lane[group.count++] = lane;
-      if (group.count == kLanes) reach_group(kernels, upsampler, group, c, unsolved, part);
+      if (group.count == kLanes) continue_group(kernels, upsampler, group, c, unsolved, part);
     }
   }
-  reach_group(kernels, upsampler, group, c, unsolved, part);
+  continue_group(kernels, upsampler, group, c, unsolved, part);
 }
 
 void solve_chunk(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
@@ -87,14 +87,14 @@ void solve_chunk(const kernels::KernelTable& kernels, const Upsampler& upsampler
   }
   if (out.scale != nullptr || overwrites) std::copy_n(keep, 3, in);
   if (part != nullptr) std::fill_n(part, n, 1.0F);
-  kernels.sigmoid_solve(out.c, in, upsampler.sigmoid()->table, unsolved, n);
-  reach_unsolved(kernels, upsampler, in, out.c, unsolved, part, n);
+  kernels.sigmoid_solve(out.c, in, UpsamplerAccess::sigmoid(upsampler)->table, unsolved, n);
+  continue_unsolved(kernels, upsampler, in, out.c, unsolved, part, n);
 }
 
 }  // namespace
 
-bool misses_inside(const Upsampler& upsampler) {
-  return upsampler.sigmoid() != nullptr && !upsampler.sigmoid()->has_cube;
+bool covers_unit_cube(const Upsampler& upsampler) {
+  return mixes_bases(upsampler) || UpsamplerAccess::sigmoid(upsampler)->covers_unit_cube;
 }
 
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
@@ -120,11 +120,13 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
                    const float* scale, float* spectra, std::size_t blocks, bool stream) {
   const std::size_t bands = upsampler.bands().count();
   if (mixes_bases(upsampler)) {
-    kernels.smits_blocks(spectra, c, upsampler.table(), upsampler.lowest(), bands, blocks, stream);
+    kernels.smits_blocks(spectra, c, UpsamplerAccess::table(upsampler), upsampler.lowest(), bands, blocks,
+                         stream);
     return;
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;
-  kernels.sigmoid_blocks(spectra, c, scale, upsampler.sigmoid()->table.rows, white, bands, blocks, stream);
+  kernels.sigmoid_blocks(spectra, c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, white, bands,
+                         blocks, stream);
 }
 
 }  // namespace spectile::rows

@@ -1,10 +1,28 @@
-// A method's two steps on rows of lanes: colours to coefficients, coefficients to samples.
+// A method's steps on rows of lanes: colours to coefficients, coefficients to samples, relighting.
 #pragma once
 
 #include <cstdint>
-#include <spectile/upsampling/upsample.hpp>
+#include <spectile/upsampling/relight.hpp>
 
 #include "kernels/abi.hpp"
+
+namespace spectile {
+
+/// An upsampler's tables in the kernels' layout.
+struct UpsamplerAccess {
+  /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoid.
+  static const float* table(const Upsampler& upsampler) noexcept { return upsampler.table_.data(); }
+  /// Null for the methods that mix basis spectra.
+  static const SigmoidModel* sigmoid(const Upsampler& upsampler) noexcept { return upsampler.sigmoid_.get(); }
+};
+
+/// A relighter's table in the kernels' layout.
+struct RelighterAccess {
+  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoid.
+  static const float* table(const Relighter& relighter) noexcept { return relighter.table_.data(); }
+};
+
+}  // namespace spectile
 
 namespace spectile::rows {
 
@@ -14,11 +32,11 @@ struct Coefficients {
   float* scale = nullptr;  ///< null where the method needs none
 };
 
-/// Whether a method's coefficients are its RGB.
+/// True for the methods whose coefficients are their RGB.
 inline bool mixes_bases(const Upsampler& upsampler) {
-  return upsampler.sigmoid() == nullptr;
+  return upsampler.method() != Method::kSigmoid;
 }
-/// Whether every lane has a scale besides its coefficients.
+/// True where every lane has a scale besides its coefficients.
 inline bool has_scale(const Upsampler& upsampler) {
   return !mixes_bases(upsampler) && upsampler.quantity() != Quantity::kReflectance;
 }
@@ -29,9 +47,8 @@ inline bool has_scale(const Upsampler& upsampler) {
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
            const Coefficients& out, std::uint64_t* unsolved, std::size_t n, float* part = nullptr);
 
-/// Whether some colours without a component outside [0, 1], or [0, infinity) where it has a scale, are none
-/// of the method's.
-bool misses_inside(const Upsampler& upsampler);
+/// True where the method has every colour with components in [0, 1], or [0, infinity) where it has a scale.
+bool covers_unit_cube(const Upsampler& upsampler);
 
 /// Coefficients to blocks of samples.
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
@@ -40,6 +57,14 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
 /// gamut_clip() on a row of `n` lanes, padded to a multiple of 64 with zeros. `lanes_outside` [n], where
 /// asked for, becomes 1 for each of them that is, else 0.
 GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
-                       OutOfGamut policy, std::size_t n, std::uint8_t* lanes_outside = nullptr);
+                       GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside = nullptr);
+
+/// RGB of n lanes, a multiple of 64, to colour; `out` may be `rgb`.
+void relight(const kernels::KernelTable& kernels, const Relighter& relighter, const float* const rgb[3],
+             float* const out[3], std::size_t n);
+
+/// The same through spectra, block by block in the caches. `spectra` holds one block.
+void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& relighter,
+                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n);
 
 }  // namespace spectile::rows

@@ -15,7 +15,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr int kIterations = 100;
 constexpr double kEqualityTolerance = 1e-12;
 
-Matrix rows_of(const std::vector<LinearTerm>& terms, std::size_t variables, Vector& values) {
+Matrix sparse_rows(const std::vector<LinearTerm>& terms, std::size_t variables, Vector& values) {
   Triplets entries;
   values.resize(static_cast<Eigen::Index>(terms.size()));
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -81,7 +81,7 @@ struct State {
   double gap() const { return (lower.dot(x) + upper.dot(room())) / static_cast<double>(2 * x.size()); }
 };
 
-/// Whether the multipliers prove that no point of the box meets the equalities (Farkas): their combination
+/// True if the multipliers prove that no point of the box meets the equalities (Farkas): their combination
 /// asks for more than it has anywhere.
 bool proves_infeasible(const Matrix& a, const Vector& b, const Vector& y) {
   const double size = y.lpNorm<1>();
@@ -91,12 +91,12 @@ bool proves_infeasible(const Matrix& a, const Vector& b, const Vector& y) {
 }
 
 /// How far a state is from the minimum: 1 is as near as doubles allow.
-double distance_of(const Vector& primal, const Vector& dual, double gap) {
+double residual_ratio(const Vector& primal, const Vector& dual, double gap) {
   return std::max({primal.lpNorm<Eigen::Infinity>() / kEqualityTolerance, gap / 1e-13,
                    dual.lpNorm<Eigen::Infinity>() / 1e-9});
 }
 
-// What a state may be off where the steps break down before it is there: the last of them mostly improve what
+// Residual ratio accepted where the steps break down before the minimum: the last of them mostly improve what
 // polished() mends anyhow.
 constexpr double kNearEnough = 1e5;
 
@@ -113,7 +113,7 @@ std::optional<State> interior_point(const Matrix& h, const Vector& g, const Matr
     const Vector dual = h * s.x - g - a.transpose() * s.y - s.lower + s.upper;
     const Vector primal = a * s.x - b;
     const double gap = s.gap();
-    const double distance = distance_of(primal, dual, gap);
+    const double distance = residual_ratio(primal, dual, gap);
     if (distance < 1) return s;
     if (distance < best_distance) {
       best = s;
@@ -190,8 +190,8 @@ Vector polished(const Matrix& h, const Vector& g, const Matrix& a, const Vector&
 
 std::optional<std::vector<double>> minimize(const QuadraticProgram& program) {
   Vector values, b;
-  const Matrix squares = rows_of(program.squares, program.variables, values);
-  const Matrix a = rows_of(program.equalities, program.variables, b);
+  const Matrix squares = sparse_rows(program.squares, program.variables, values);
+  const Matrix a = sparse_rows(program.equalities, program.variables, b);
   const Matrix h = squares.transpose() * squares;
   const Vector g = squares.transpose() * values;
   const auto state = interior_point(h, g, a, b);

@@ -4,11 +4,11 @@
 
 #include "src/base/errors.hpp"
 #include "src/color/color_matrix.hpp"
+#include "src/color/kernel_tables.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/upsampling/method_rows.hpp"
-#include "src/upsampling/relight_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile {
@@ -24,7 +24,7 @@ constexpr std::size_t kChunk = 512;
 }  // namespace
 
 Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector& under, const Matrix3& to) {
-  SPECTILE_TRY(shape::bands_of("the projector", under.bands(), upsampler.bands()));
+  SPECTILE_TRY(shape::same_bands("the projector", under.bands(), upsampler.bands()));
   if (upsampler.quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "only reflectances can be relit, not light");
   }
@@ -40,7 +40,7 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
   const auto basis = upsampler.basis();
   const std::size_t bands = weights.size();
   double magnitude[3] = {};  // of what a component is the sum of, at most
-  double clamped[3] = {};    // what the long way's clamping adds at most
+  double clamped[3] = {};    // what clamping of samples adds at most
   for (std::size_t j = 0; j < 7; ++j) {
     double sum[3] = {};
     double size[3] = {};
@@ -61,8 +61,8 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
       clamped[k] = std::max(clamped[k], below[k]);
     }
   }
-  // The long way: the table, three products and two sums a sample; a weight, a product and the runs of sums;
-  // a matrix of four roundings. The direct way: as many as a sample. The weights sum to the largest
+  // Through spectra: the table, three products and two sums a sample; a weight, a product and the runs of
+  // sums; a matrix of four roundings. Directly: as many as a sample. The weights sum to the largest
   // component.
   const double roundings =
       6 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 6;
@@ -76,7 +76,7 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
              float* const out[3], std::size_t n) {
   const Upsampler& upsampler = relighter.upsampler();
   if (mixes_bases(upsampler)) {
-    const float* const table = relighter.table().data();
+    const float* const table = RelighterAccess::table(relighter);
     if (upsampler.method() == Method::kMallett) {
       float matrix[9];
       for (std::size_t k = 0; k < 9; ++k) matrix[k] = table[k / 3 * kSmitsRow + 4 + k % 3];
@@ -99,8 +99,8 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
     float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
     const float* const xyz[3] = {to[0], to[1], to[2]};
     solve(kernels, upsampler, in, found, unsolved, lanes);
-    kernels.sigmoid_project(to, read, found.scale, upsampler.sigmoid()->table.rows, false,
-                            projector.float_weights(), projector.bands().count(), lanes);
+    kernels.sigmoid_project(to, read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, false,
+                            ProjectorAccess::weights(projector), projector.bands().count(), lanes);
     kernels.transform3(to, xyz, matrix.data(), lanes);
   }
 }
@@ -121,7 +121,8 @@ void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& re
     std::uint64_t unsolved = 0;
     solve(kernels, upsampler, in, found, &unsolved, kernels::kLanes);
     expand_blocks(kernels, upsampler, read, found.scale, spectra, 1, false);
-    kernels.project(to[0], to[1], to[2], spectra, projector.float_weights(), projector.bands().count(), 1);
+    kernels.project(to[0], to[1], to[2], spectra, ProjectorAccess::weights(projector),
+                    projector.bands().count(), 1);
     kernels.transform3(to, xyz, matrix.data(), kernels::kLanes);
   }
 }
@@ -130,8 +131,8 @@ void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& re
 
 Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out, const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
-  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
-  for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(rgb));
+  SPECTILE_TRY(shape::aligned(out));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   tiles::for_blocks(blocks_for(rgb.lanes), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;

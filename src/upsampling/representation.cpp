@@ -98,10 +98,10 @@ Result<SampledSpectra> RgbRepresentation::reflectance(const Spectrum& spectrum, 
 
 Result<void> RgbRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan out,
                                                const Execution& execution) const {
-  SPECTILE_TRY(shape::bands_of("the representation", bands_, out.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, out.bands));
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(out.data));
-  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(rgb));
   tiles::for_blocks(blocks_for(rgb.lanes), execution, [&](std::size_t first, std::size_t count) {
     for (std::size_t block = first; block < first + count; ++block) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -120,10 +120,10 @@ Result<void> RgbRepresentation::reflectance_from_rgb(ColorView rgb, SampledSpect
 
 Result<void> RgbRepresentation::weighted(const Matrix3& matrix, SampledSpectraView light, ColorSpan out,
                                          const Execution& execution) const {
-  SPECTILE_TRY(shape::bands_of("the representation", bands_, light.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.bands));
   SPECTILE_TRY(shape::same_lanes(light.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
-  for (const float* plane : out.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(out));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   alignas(64) float weights[3][4] = {};
   for (std::size_t i = 0; i < 9; ++i) weights[i % 3][i / 3] = static_cast<float>(matrix[i]);
@@ -146,7 +146,7 @@ Result<void> RgbRepresentation::to_rgb(SampledSpectraView light, ColorSpan rgb,
 
 Result<void> RgbRepresentation::luminance(SampledSpectraView light, LanesSpan y,
                                           const Execution& execution) const {
-  SPECTILE_TRY(shape::bands_of("the representation", bands_, light.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.bands));
   SPECTILE_TRY(shape::same_lanes(light.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
   SPECTILE_TRY(shape::aligned(y.data));

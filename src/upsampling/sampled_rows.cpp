@@ -1,14 +1,15 @@
-// SampledRows: what turns a method's coefficients into samples at chosen places of the spectrum.
+// SampledRows: tables that turn a method's coefficients into samples at chosen places of the spectrum.
 #include "src/upsampling/sampled_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "src/base/errors.hpp"
+#include "src/color/working_space.hpp"
 #include "src/spectra/planned_bands.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
-#include "src/upsampling/working_space.hpp"
 
 namespace spectile::rows {
 namespace {
@@ -23,7 +24,7 @@ struct Place {
   double t = 0;
 };
 
-Place place_of(const Bands& bands, double wavelength_nm) {
+Place locate(const Bands& bands, double wavelength_nm) {
   const auto list = bands.list();
   const auto after = std::upper_bound(list.begin(), list.end(), wavelength_nm,
                                       [](double nm, const Band& band) { return nm < band.centre_nm; });
@@ -34,11 +35,11 @@ Place place_of(const Bands& bands, double wavelength_nm) {
 }
 
 /// Linear between the values of two bands; the first's own where the place is its centre.
-double between(const Place& place, double first, double next) {
+double interpolate(const Place& place, double first, double next) {
   return place.t == 0 ? first : (1 - place.t) * first + place.t * next;
 }
 
-float lambda_of(const SigmoidModel& model, double wavelength_nm) {
+float clamped_lambda(const SigmoidModel& model, double wavelength_nm) {
   return std::clamp(static_cast<float>(sigmoid_lambda(wavelength_nm)), model.lowest_lambda,
                     model.highest_lambda);
 }
@@ -49,7 +50,8 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
                                      const MeasuredSpectrum& light) {
   const UpsamplerOptions& made = upsampler.options();
   const bool planned = bands.plan() != nullptr || upsampler.bands().plan() != nullptr;
-  SPECTILE_ASSIGN(const auto space, working_space(planned ? bands : upsampler.bands(), upsampler.quantity(),
+  SPECTILE_ASSIGN(const auto space, working_space(planned ? bands : upsampler.bands(),
+                                                  upsampler.quantity() == Quantity::kIlluminant,
                                                   made.primaries, light, made.observer));
   if (planned) return space.white;
   auto out = light_samples(light, bands);
@@ -60,7 +62,7 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
 
 }  // namespace
 
-Result<SampledRows> SampledRows::of_size(const Upsampler& upsampler, std::size_t count) {
+Result<SampledRows> SampledRows::sized(const Upsampler& upsampler, std::size_t count) {
   SampledRows out;
   out.count_ = count;
   out.sigmoid_ = !mixes_bases(upsampler);
@@ -74,7 +76,8 @@ Result<SampledRows> SampledRows::of_size(const Upsampler& upsampler, std::size_t
 }
 
 void SampledRows::copy(const Upsampler& upsampler) {
-  const float* const from = sigmoid_ ? upsampler.sigmoid()->table.rows : upsampler.table();
+  const float* const from =
+      sigmoid_ ? UpsamplerAccess::sigmoid(upsampler)->table.rows : UpsamplerAccess::table(upsampler);
   std::copy_n(from, count_ * row_floats_, table_.data());
 }
 
@@ -98,7 +101,7 @@ void SampledRows::set_limits() {
 }
 
 Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& bands) {
-  auto out = of_size(upsampler, bands.count());
+  auto out = sized(upsampler, bands.count());
   if (!out) return out.error();
   if (bands == upsampler.bands()) {
     out->copy(upsampler);
@@ -114,7 +117,7 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
       SPECTILE_ASSIGN(white, white_in(bands, upsampler, light));
     }
     for (std::size_t b = 0; b < bands.count(); ++b) {
-      out->row(b)[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), bands[b].centre_nm);
+      out->row(b)[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), bands[b].centre_nm);
       out->row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
     }
   }
@@ -123,23 +126,23 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
 }
 
 Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const double> wavelengths_nm) {
-  SPECTILE_ASSIGN(auto out, of_size(upsampler, wavelengths_nm.size()));
+  SPECTILE_ASSIGN(auto out, sized(upsampler, wavelengths_nm.size()));
   const std::size_t last = upsampler.bands().count() - 1;
   for (std::size_t i = 0; i < wavelengths_nm.size(); ++i) {
-    const Place place = place_of(upsampler.bands(), wavelengths_nm[i]);
+    const Place place = locate(upsampler.bands(), wavelengths_nm[i]);
     const std::size_t next = std::min(place.band + 1, last);
     float* const row = out.row(i);
     if (out.sigmoid_) {
-      const float* const own = upsampler.sigmoid()->table.rows;
+      const float* const own = UpsamplerAccess::sigmoid(upsampler)->table.rows;
       const auto white = [own](std::size_t b) {
         return static_cast<double>(own[b * kSigmoidRow + kSigmoidWhite]);
       };
-      row[kSigmoidLambda] = lambda_of(*upsampler.sigmoid(), wavelengths_nm[i]);
-      row[kSigmoidWhite] = static_cast<float>(between(place, white(place.band), white(next)));
+      row[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), wavelengths_nm[i]);
+      row[kSigmoidWhite] = static_cast<float>(interpolate(place, white(place.band), white(next)));
     } else {
       const auto basis = upsampler.basis();
       for (std::size_t k = 0; k < 7; ++k) {
-        row[k] = static_cast<float>(between(place, basis[place.band][k], basis[next][k]));
+        row[k] = static_cast<float>(interpolate(place, basis[place.band][k], basis[next][k]));
       }
     }
   }

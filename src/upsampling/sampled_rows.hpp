@@ -1,4 +1,4 @@
-// SampledRows: what turns a method's coefficients into samples at chosen places of the spectrum.
+// SampledRows: tables that turn a method's coefficients into samples at chosen places of the spectrum.
 #pragma once
 
 #include <array>
@@ -26,13 +26,13 @@ class SampledRows {
   static Result<SampledRows> at(const Upsampler& upsampler, std::span<const double> wavelengths_nm);
 
   std::size_t count() const noexcept { return count_; }
-  /// Whether every lane has a scale besides its coefficients.
+  /// True where every lane has a scale besides its coefficients.
   bool has_scale() const noexcept { return has_scale_; }
   /// The seven basis samples of a place, as kernels take them; of methods that mix bases.
   const float* basis(std::size_t i) const noexcept { return table_.data() + i * row_floats_; }
-  /// Whether samples are linear in the weights of the bases (and for a method that is linear in RGB, in that)
-  /// as long as no component is below 0, or, with `any_component`, whatever they are: whether none is limited
-  /// from below.
+  /// True if samples are linear in the weights of the bases (and for a method that is linear in RGB, in that)
+  /// as long as no component is below 0, or, with `any_component`, whatever they are: if none is limited from
+  /// below.
   bool linear(bool any_component) const noexcept;
   /// Largest magnitude of each coefficient, and of the scale, for which no sample can overflow.
   const std::array<float, 4>& limits() const noexcept { return limits_; }
@@ -51,7 +51,7 @@ class SampledRows {
 
  private:
   SampledRows() = default;
-  static Result<SampledRows> of_size(const Upsampler& upsampler, std::size_t count);
+  static Result<SampledRows> sized(const Upsampler& upsampler, std::size_t count);
   void copy(const Upsampler& upsampler);
   void set_limits();
   float* row(std::size_t i) noexcept { return table_.data() + i * row_floats_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
 #include "src/upsampling/sigmoid_search.hpp"
 
@@ -137,15 +138,16 @@ Triple nearest_start(std::size_t most, const Triple& q) {
   return c;
 }
 
-/// Coefficients of a colour, or of the last one on the way to it from its grey that has some; whether it has.
-bool coefficients_of(const SigmoidSums& sums, const Triple& rgb, const Triple& luminance, Triple& c) {
+/// Coefficients of a colour, or of the last one on the line to it from its grey that has some; true if it
+/// has.
+bool find_coefficients(const SigmoidSums& sums, const Triple& rgb, const Triple& luminance, Triple& c) {
   constexpr int kTrials = 30;  // from near by
   if (sums.solve(rgb, c, kTrials)) return true;
   const double grey = luminance[0] * rgb[0] + luminance[1] * rgb[1] + luminance[2] * rgb[2];
-  return grey > 0 && grey < 1 && sums.reach(rgb, grey, c) == 1 && sums.solve(rgb, c);
+  return grey > 0 && grey < 1 && sums.continue_from_grey(rgb, grey, c) == 1 && sums.solve(rgb, c);
 }
 
-/// Whether all nodes have coefficients.
+/// True if all nodes have coefficients.
 bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) {
   bool all = true;
   for (std::size_t most = 0; most < 3; ++most) {
@@ -155,7 +157,7 @@ bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) 
       float* const node = nodes + (most * kCells + at) * kSigmoidNode;
       Triple c = nearest_start(most, q);
       const Triple rgb = sigmoid_node_rgb(most, q);
-      const bool solved = coefficients_of(sums, rgb, luminance, c);
+      const bool solved = find_coefficients(sums, rgb, luminance, c);
       all = all && solved;
       if (solved) store_node(expand(sums, most, q, c), kSteps, node);
       // A node without a colour, or too steep to be expanded, is a plain start.
@@ -169,12 +171,12 @@ bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) 
   return all;
 }
 
-/// Whether the cube's corners have coefficients that the fast search can find.
+/// True if the cube's corners have coefficients that the fast search can find.
 bool has_corners(const SigmoidSums& sums, const Triple& luminance) {
   for (int corner = 1; corner < 7; ++corner) {
     const Triple rgb = {corner % 2 * 1.0, corner / 2 % 2 * 1.0, corner / 4 * 1.0};
     Triple c{};
-    if (!coefficients_of(sums, rgb, luminance, c)) return false;
+    if (!find_coefficients(sums, rgb, luminance, c)) return false;
     if (std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) > static_cast<double>(kernels::kSigmoidSteep)) {
       return false;
     }
@@ -234,7 +236,7 @@ Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, co
   }
   const SigmoidSums sums(bands, space);
   const Triple luminance = {space.rgb_to_xyz[3], space.rgb_to_xyz[4], space.rgb_to_xyz[5]};
-  model->has_cube = fill_nodes(sums, luminance, node) && has_corners(sums, luminance);
+  model->covers_unit_cube = fill_nodes(sums, luminance, node) && has_corners(sums, luminance);
   model->table = {n, rows, weights, node, kSteps};
   model->lowest_lambda = rows[kSigmoidLambda];
   model->highest_lambda = rows[(n - 1) * kSigmoidRow + kSigmoidLambda];

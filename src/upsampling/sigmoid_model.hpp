@@ -1,11 +1,11 @@
-// What the sigmoid kernels need for given bands, light, observer and primaries.
+// Tables of the sigmoid kernels for given bands, light, observer and primaries.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "kernels/abi.hpp"
-#include "src/upsampling/working_space.hpp"
+#include "src/color/working_space.hpp"
 
 namespace spectile {
 
@@ -16,7 +16,7 @@ struct SigmoidModel {
   /// Least and greatest lambda of the bands; beyond them a spectrum keeps its value at the end.
   float lowest_lambda = 0;
   float highest_lambda = 0;
-  bool has_cube = false;  ///< some sigmoid has every colour with components from 0 to 1
+  bool covers_unit_cube = false;  ///< every colour with components from 0 to 1 has a sigmoid
 };
 
 /// Lambda of the polynomials. Units: nm.

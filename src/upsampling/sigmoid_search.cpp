@@ -102,7 +102,7 @@ bool SigmoidSums::solve(const Triple& rgb, Triple& c, int trials) const {
   return largest(left) < 1e-9;
 }
 
-double SigmoidSums::reach(const Triple& rgb, double grey, Triple& c) const {
+double SigmoidSums::continue_from_grey(const Triple& rgb, double grey, Triple& c) const {
   constexpr double kShortest = 0x1p-10;
   constexpr int kTrials = 20;
   c = {0, 0, (grey - 0.5) / std::sqrt(grey * (1 - grey))};

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "src/upsampling/working_space.hpp"
+#include "src/color/working_space.hpp"
 
 namespace spectile {
 
@@ -22,11 +22,11 @@ class SigmoidSums {
   std::array<Matrix3, 3> second(const Triple& c) const;
 
   /// Moves `c` to where the sums are `rgb`, by the method of Levenberg and Marquardt, in so many trials at
-  /// most; whether it got there.
+  /// most; true if it got there.
   bool solve(const Triple& rgb, Triple& c, int trials = 200) const;
-  /// The part of the line from (grey, grey, grey), above 0 and below 1, to `rgb` that sigmoids have; c
-  /// becomes those there.
-  double reach(const Triple& rgb, double grey, Triple& c) const;
+  /// Continuation from the grey axis: the part of the line from (grey, grey, grey), above 0 and below 1, to
+  /// `rgb` that sigmoids have; c becomes the coefficients at its end.
+  double continue_from_grey(const Triple& rgb, double grey, Triple& c) const;
   /// The same without a start: along the line from grey.
   bool solve_from_grey(const Triple& rgb, Triple& c) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(kLanesPerBlock == kernels::kLanes);
 
-// Larger batches than this go round the caches: they would only push out what is used next.
+// Larger batches are written with non-temporal stores: cached, they would only evict other data.
 constexpr std::size_t kStreamingBytes = std::size_t{64} << 20;
 
 // Lanes whose coefficients stay in the first-level cache between being found and being used.
@@ -28,16 +28,16 @@ struct Chunk {
 };
 
 Result<void> check(const Upsampler& upsampler, const ColorView& in, const SampledSpectraSpan& spectra) {
-  SPECTILE_TRY(shape::bands_of("the upsampler", upsampler.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_bands("the upsampler", upsampler.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(in.lanes, spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
-  for (const float* plane : in.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(in));
   return {};
 }
 
-bool streams(StoreHint stores, const SampledSpectraSpan& spectra) {
+bool streams(StoreHint hint, const SampledSpectraSpan& spectra) {
   const std::size_t bytes = SampledSpectraView(spectra).floats() * sizeof(float);
-  return stores == StoreHint::kStreaming || (stores == StoreHint::kAuto && bytes > kStreamingBytes);
+  return hint == StoreHint::kStreaming || (hint == StoreHint::kAuto && bytes > kStreamingBytes);
 }
 
 /// Runs a tile of blocks through a matrix, where there is one, and the method.
@@ -66,10 +66,10 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
 }
 
 Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* matrix,
-                 const SampledSpectraSpan& spectra, StoreHint stores, const Execution& execution) {
+                 const SampledSpectraSpan& spectra, StoreHint hint, const Execution& execution) {
   SPECTILE_TRY(check(upsampler, in, spectra));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const bool stream = streams(stores, spectra);
+  const bool stream = streams(hint, spectra);
   tiles::for_blocks(blocks_for(in.lanes), execution, [&](std::size_t first, std::size_t count) {
     upsample_tile(*table, upsampler, in, matrix, spectra.data, first, count, stream);
   });
@@ -79,14 +79,14 @@ Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* m
 }  // namespace
 
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
-                           StoreHint stores, const Execution& execution) {
-  return run(upsampler, rgb, nullptr, spectra, stores, execution);
+                           StoreHint hint, const Execution& execution) {
+  return run(upsampler, rgb, nullptr, spectra, hint, execution);
 }
 
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
-                          StoreHint stores, const Execution& execution) {
+                          StoreHint hint, const Execution& execution) {
   const std::array<float, 9> matrix = color::to_float(xyz_to_srgb_matrix());
-  return run(upsampler, xyz, matrix.data(), spectra, stores, execution);
+  return run(upsampler, xyz, matrix.data(), spectra, hint, execution);
 }
 
 Result<CoefficientLanes> CoefficientLanes::create(const Upsampler& upsampler, std::size_t lanes) {
@@ -102,7 +102,7 @@ Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, Coefficient
                           const Execution& execution) {
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.c.lanes()));
   if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.scale.lanes()));
-  for (const float* plane : rgb.c) SPECTILE_TRY(shape::aligned(plane));
+  SPECTILE_TRY(shape::aligned(rgb));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t blocks = blocks_for(rgb.lanes);
   std::vector<std::uint64_t> unsolved(blocks);
@@ -124,12 +124,12 @@ Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, Coefficient
 }
 
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraSpan spectra,
-                    StoreHint stores, const Execution& execution) {
+                    StoreHint hint, const Execution& execution) {
   const ColorView c = in.c.view();
   SPECTILE_TRY(check(upsampler, c, spectra));
   if (rows::has_scale(upsampler)) SPECTILE_TRY(shape::same_lanes(c.lanes, in.scale.lanes()));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const bool stream = streams(stores, spectra);
+  const bool stream = streams(hint, spectra);
   const float* const scale = rows::has_scale(upsampler) ? in.scale.view().data : nullptr;
   const std::size_t bands = upsampler.bands().count();
   tiles::for_blocks(blocks_for(c.lanes), execution, [&](std::size_t first, std::size_t count) {

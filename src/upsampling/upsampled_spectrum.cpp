@@ -9,8 +9,8 @@
 namespace spectile {
 namespace {
 
-Result<UpsampledSpectrum> of_quantity(const Upsampler& upsampler, Quantity quantity,
-                                      const std::array<double, 3>& rgb) {
+Result<UpsampledSpectrum> upsampled(const Upsampler& upsampler, Quantity quantity,
+                                    const std::array<double, 3>& rgb) {
   if (upsampler.quantity() != quantity) {
     return make_error(ErrorCode::kBadArgument, "the upsampler makes {} spectra, not {} ones",
                       to_string(upsampler.quantity()), to_string(quantity));
@@ -32,7 +32,7 @@ Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler
     lanes.at(0, k) = static_cast<float>(rgb[k]);
     if (!std::isfinite(lanes.at(0, k))) return cannot_make(upsampler, rgb);
   }
-  SPECTILE_ASSIGN(const auto report, gamut_clip(upsampler, lanes.span(), OutOfGamut::kKeep));
+  SPECTILE_ASSIGN(const auto report, gamut_clip(upsampler, lanes.span(), GamutPolicy::kKeep));
   if (report.outside > 0) return cannot_make(upsampler, rgb);
   UpsampledSpectrum out;
   out.method_ = upsampler.method();
@@ -51,7 +51,7 @@ Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler
     for (std::size_t k = 0; k < 3; ++k) out.c_[k] = found.c.at(0, k);
     if (rows::has_scale(upsampler)) out.scale_ = found.scale[0];
     if (upsampler.quantity() != Quantity::kIlluminant) return out;
-    const float* const own = upsampler.sigmoid()->table.rows;
+    const float* const own = UpsamplerAccess::sigmoid(upsampler)->table.rows;
     for (std::size_t b = 0; b < bands.count(); ++b) {
       values.push_back(own[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
     }
@@ -72,17 +72,17 @@ Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const 
                         rgb[1], rgb[2]);
     }
   }
-  return of_quantity(upsampler, Quantity::kReflectance, rgb);
+  return upsampled(upsampler, Quantity::kReflectance, rgb);
 }
 
 Result<UpsampledSpectrum> rgb_unbounded_spectrum(const Upsampler& upsampler,
                                                  const std::array<double, 3>& rgb) {
-  return of_quantity(upsampler, Quantity::kUnbounded, rgb);
+  return upsampled(upsampler, Quantity::kUnbounded, rgb);
 }
 
 Result<UpsampledSpectrum> rgb_illuminant_spectrum(const Upsampler& upsampler,
                                                   const std::array<double, 3>& rgb) {
-  return of_quantity(upsampler, Quantity::kIlluminant, rgb);
+  return upsampled(upsampler, Quantity::kIlluminant, rgb);
 }
 
 }  // namespace spectile

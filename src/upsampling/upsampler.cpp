@@ -5,11 +5,11 @@
 
 #include "kernels/abi.hpp"
 #include "src/base/errors.hpp"
+#include "src/color/working_space.hpp"
 #include "src/data/tables.hpp"
 #include "src/spectra/planned_bands.hpp"
 #include "src/upsampling/exact_basis.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
-#include "src/upsampling/working_space.hpp"
 
 namespace spectile {
 namespace {
@@ -74,13 +74,13 @@ Result<std::array<float, 3>> luminance_weights(const UpsamplerOptions& options,
                                                const MeasuredSpectrum& light) {
   SPECTILE_ASSIGN(const auto visible, Bands::uniform(360, 830, 1));
   SPECTILE_ASSIGN(const auto space,
-                  working_space(visible, Quantity::kReflectance, options.primaries, light, options.observer));
+                  working_space(visible, false, options.primaries, light, options.observer));
   std::array<float, 3> out{};
   for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(space.rgb_to_xyz[3 + k]);
   return out;
 }
 
-/// Whether the tables in src/data are those asked for.
+/// True if the tables in src/data are those asked for.
 bool is_precomputed(Quantity quantity, const Bands& bands, const UpsamplerOptions& options) {
   return quantity != Quantity::kIlluminant && bands == Bands() && options.primaries == kRec709 &&
          !options.light && options.observer == Observer::kCie1931;
@@ -164,7 +164,8 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
                       to_string(method));
   }
   const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
-  const auto space = working_space(bands, quantity, options.primaries, light, options.observer);
+  const auto space =
+      working_space(bands, quantity == Quantity::kIlluminant, options.primaries, light, options.observer);
   if (!space && !published) return space.error();
   Upsampler out;
   out.method_ = method;

@@ -3,6 +3,7 @@
 
 #include <spectile/color/colorimetry.hpp>
 
+#include "src/color/kernel_tables.hpp"
 #include "src/reference/oracle/oracle.hpp"
 #include "tests/support/lanes.hpp"
 
@@ -20,7 +21,7 @@ constexpr double kWeightBound = 1e-7;
 /// Largest difference of a projector's weights from the oracle's, relative to the largest weight of the
 /// component.
 double weight_error(const Projector& projector, const MeasuredSpectrum* light) {
-  const auto exact = oracle::projection_weights(projector.bands(), projector.observer(), light);
+  const auto exact = oracle::projection_weights(projector.bands(), *projector.observer(), light);
   double worst = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     double largest = 0;
@@ -66,10 +67,12 @@ TEST(Projector, FloatWeightsAreTheDoubleOnesRounded) {
   ASSERT_EQ(projector.weights().size(), 60U);
   for (std::size_t b = 0; b < 60; ++b) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(projector.float_weights()[4 * b + k], static_cast<float>(projector.weights()[b][k]));
+      EXPECT_EQ(ProjectorAccess::weights(projector)[4 * b + k],
+                static_cast<float>(projector.weights()[b][k]));
     }
-    EXPECT_EQ(projector.float_weights()[4 * b + 3], 0.0F);
-    EXPECT_EQ(projector.luminance_weights()[b], projector.float_weights()[4 * b + 1]);
+    EXPECT_EQ(ProjectorAccess::weights(projector)[4 * b + 3], 0.0F);
+    EXPECT_EQ(ProjectorAccess::luminance_weights(projector)[b],
+              ProjectorAccess::weights(projector)[4 * b + 1]);
   }
 }
 

@@ -1,5 +1,6 @@
 // Sensors: exposure, white balance, projection over bands and at wavelengths, and the fit to XYZ.
 #include <spectile/color/sensor.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
 #include "tests/support/lanes.hpp"
@@ -53,28 +54,34 @@ TEST(Sensor, CurvesWithoutAResponseAreErrors) {
             "sensor \"kodak\" is unknown; there are cie1931, cie1964, canon-eos-5d-mkii");
 }
 
-TEST(SensorProjector, IsTheResponseForWhatIsConstantOverTheBands) {
+TEST(Projector, OfASensorIsTheResponseForWhatIsConstantOverTheBands) {
   const auto sensor = *Sensor::named("canon-eos-5d-mkii", {1, light("D65")});
   const Bands bands = *Bands::parse("360:830:10");
   for (const bool reflective : {false, true}) {
-    const auto projector = *SensorProjector::create(
-        sensor, bands, reflective ? std::optional<Spectrum>(light("FL2")) : std::nullopt);
+    const auto projector = reflective ? *Projector::reflective(bands, light("FL2"), sensor)
+                                      : *Projector::emissive(bands, sensor);
+    EXPECT_FALSE(projector.observer());
+    EXPECT_EQ(projector.xyz_to_srgb(), (Matrix3{1, 0, 0, 0, 1, 0, 0, 0, 1}));
     auto spectra = *SampledSpectra::constant(bands, 65, 0.5F);
     auto rgb = *ColorLanes::create(65);
     ASSERT_TRUE(project(projector, spectra.view(), rgb.span()));
     const auto want = sensor.response(reflective ? light("FL2") : Spectrum(ConstantSpectrum(1)));
     for (std::size_t c = 0; c < 3; ++c) {
       for (const std::size_t i : {0U, 64U}) EXPECT_NEAR(rgb.at(i, c) / (0.5 * want[c]), 1, 1e-6);
+      EXPECT_NEAR(projector.white()[c] / want[c], 1, 1e-12);
     }
+    auto second = *ScalarLanes::create(65);
+    ASSERT_TRUE(luminance(projector, spectra.view(), second.span()));
+    EXPECT_EQ(second[64], rgb.at(64, 1));
   }
   auto other = *SampledSpectra::constant(Bands(), 65, 1);
   auto rgb = *ColorLanes::create(65);
-  EXPECT_FALSE(project(*SensorProjector::create(sensor, bands), other.view(), rgb.span()));
+  EXPECT_FALSE(project(*Projector::emissive(bands, sensor), other.view(), rgb.span()));
 }
 
-TEST(SensorProjector, AnObserversIsTheProjectorOfColorimetry) {
+TEST(Projector, OfAnObserversSensorIsTheObservers) {
   const auto sensor = *Sensor::named("cie1931");
-  const auto mine = *SensorProjector::create(sensor, *Bands::parse("360:830:5"));
+  const auto mine = *Projector::emissive(*Bands::parse("360:830:5"), sensor);
   const auto theirs = *Projector::emissive(*Bands::parse("360:830:5"));
   for (std::size_t b = 0; b < mine.bands().count(); ++b) {
     for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(mine.weights()[b][c], theirs.weights()[b][c], 1e-12) << b;

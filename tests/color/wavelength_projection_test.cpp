@@ -1,6 +1,7 @@
 // Projection of radiance at sampled wavelengths: unbiased estimates, their variance, and any three responses.
 #include <cmath>
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/color/response_curves.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 
 #include "src/data/tables.hpp"
 #include "tests/lanes/wavelengths_support.hpp"

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <spectile/upsampling/upsample.hpp>
 
+#include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 #include "tests/kernels/kernel_fixture.hpp"
 
@@ -20,7 +21,7 @@ using kernels::SigmoidTable;
 SigmoidTable sigmoid_table(std::size_t bands) {
   static const auto upsampler =
       *Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, *Bands::uniform(400, 725, 5));
-  SigmoidTable table = upsampler.sigmoid()->table;
+  SigmoidTable table = UpsamplerAccess::sigmoid(upsampler)->table;
   table.bands = bands;
   return table;
 }
@@ -28,7 +29,7 @@ SigmoidTable sigmoid_table(std::size_t bands) {
 /// The published case: sRGB reflectances under D65 over the default bands.
 SigmoidTable default_table() {
   static const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands());
-  return upsampler.sigmoid()->table;
+  return UpsamplerAccess::sigmoid(upsampler)->table;
 }
 
 /// Three planes of n: triples of telling values (cube corners, edges and faces, near black and near white,

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <spectile/upsampling/upsample.hpp>
 
+#include "src/upsampling/method_rows.hpp"
 #include "tests/kernels/kernel_fixture.hpp"
 
 namespace spectile::test {
@@ -37,7 +38,7 @@ std::vector<Floats> tables(std::size_t bands) {
   std::vector<Floats> out;
   const auto upsampler =
       *Upsampler::create(Method::kSmits, Quantity::kReflectance, *Bands::uniform(400, 400 + 5.0 * bands, 5));
-  out.emplace_back(std::span(upsampler.table(), bands * kSmitsRow));
+  out.emplace_back(std::span(UpsamplerAccess::table(upsampler), bands * kSmitsRow));
   out.push_back(plain_floats(bands * kSmitsRow, 71, -1.0F, 1.0F));
   out.push_back(arbitrary_floats(bands * kSmitsRow, 72));
   return out;

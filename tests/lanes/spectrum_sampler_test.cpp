@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
 #include "tests/support/lanes.hpp"

@@ -1,5 +1,6 @@
 // Sampled wavelengths: samplers against their distributions, and estimates that are right on average.
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
+#include <spectile/color/response_curves.hpp>
 
 #include "src/data/tables.hpp"
 #include "tests/lanes/wavelengths_support.hpp"

@@ -1,7 +1,8 @@
 // Black bodies and sums of Gaussians: values, maxima and integrals against their laws and closed forms.
 #include <cmath>
 #include <numbers>
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/color/response_curves.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/radiometry/directions.hpp>
 #include <spectile/radiometry/irradiance.hpp>
 #include <spectile/radiometry/radiometry.hpp>

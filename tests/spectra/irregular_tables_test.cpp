@@ -1,6 +1,6 @@
 // Ten thousand irregular tables: interpolation and averages against an oracle that clips straight pieces in
 // long double.
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
 #include "tests/support/lanes.hpp"

@@ -99,7 +99,7 @@ TEST_P(PlannedBands, SayWhichLightsTheyHave) {
   const auto observer = Projector::reflective(bands_, *illuminant("D65"), Observer::kCie1964);
   ASSERT_FALSE(observer);
   EXPECT_THAT(observer.error().message, HasSubstr("1931"));
-  EXPECT_FALSE(SensorProjector::create(*Sensor::named("canon-eos-5d-mkii"), bands_));
+  EXPECT_FALSE(Projector::emissive(bands_, *Sensor::named("canon-eos-5d-mkii")));
 }
 
 TEST_P(PlannedBands, SampleSpectraAsTheirPlanDoes) {

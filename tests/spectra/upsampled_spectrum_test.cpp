@@ -1,7 +1,8 @@
 // Upsampled spectra: every method and quantity, at single wavelengths and in batches.
 #include <cmath>
 #include <numbers>
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/color/response_curves.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/radiometry/radiometry.hpp>
 #include <spectile/spectra/spectrum.hpp>
 

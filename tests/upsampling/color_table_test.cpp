@@ -43,7 +43,7 @@ class ColorTables : public testing::Test {
     line.load(from);
     float* const rgb[3] = {line.row(0), line.row(1), line.row(2)};
     std::uint64_t unsolved[kLine / kLanesPerBlock] = {};
-    rows::gamut_clip(kernels_, upsampler_, rgb, OutOfGamut::kClip, kLine, line.outside.data());
+    rows::gamut_clip(kernels_, upsampler_, rgb, GamutPolicy::kClip, kLine, line.outside.data());
     rows::solve(kernels_, upsampler_, rgb, line.out(), unsolved, kLine);
     outside = line.outside;
     return line.result();
@@ -69,7 +69,7 @@ TEST_F(ColorTables, GiveTheBitsOfSolvingToEveryThread) {
   for (std::size_t i = 0; i < kLines; ++i) {
     expected.push_back(directly(colors.data() + i * 3 * kLine, outside[i]));
   }
-  rows::ColorTable table(kernels_, upsampler_, OutOfGamut::kClip, kLines * kLine);
+  rows::ColorTable table(kernels_, upsampler_, GamutPolicy::kClip, kLines * kLine);
   std::vector<std::uint64_t> solved(4);
   std::vector<int> wrong(4);
   std::vector<std::thread> threads;
@@ -99,7 +99,7 @@ TEST_F(ColorTables, ThatAreFullStillSolve) {
   constexpr std::size_t kLines = 40;
   const std::vector<float> colors = made_up(kLines, 100000, 2);
   // 1024 places for 7680 colours.
-  rows::ColorTable table(kernels_, upsampler_, OutOfGamut::kClip, 1);
+  rows::ColorTable table(kernels_, upsampler_, GamutPolicy::kClip, 1);
   auto batch = *rows::ColorTable::Batch::create(kLine);
   Line line;
   for (std::size_t i = 0; i < kLines; ++i) {
@@ -114,7 +114,7 @@ TEST_F(ColorTables, ThatAreFullStillSolve) {
 TEST_F(ColorTables, TellZeroFromMinusZero) {
   std::vector<float> colors(3 * kLine, 0.0F);
   for (std::size_t i = 0; i < kLine; i += 2) colors[i] = -0.0F;
-  rows::ColorTable table(kernels_, upsampler_, OutOfGamut::kClip, kLine);
+  rows::ColorTable table(kernels_, upsampler_, GamutPolicy::kClip, kLine);
   auto batch = *rows::ColorTable::Batch::create(kLine);
   Line line;
   line.load(colors.data());
@@ -123,7 +123,7 @@ TEST_F(ColorTables, TellZeroFromMinusZero) {
 }
 
 TEST_F(ColorTables, GiveUpWhereNothingComesAgain) {
-  rows::ColorTable table(kernels_, upsampler_, OutOfGamut::kClip, 100000);
+  rows::ColorTable table(kernels_, upsampler_, GamutPolicy::kClip, 100000);
   auto batch = *rows::ColorTable::Batch::create(kLine);
   Line line;
   int tried = 0;

@@ -20,7 +20,8 @@ struct Case {
   UpsamplerOptions options;
   WorkingSpace space() const {
     const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
-    return *working_space(bands, quantity, options.primaries, light, options.observer);
+    return *working_space(bands, quantity == Quantity::kIlluminant, options.primaries, light,
+                          options.observer);
   }
 };
 
@@ -260,19 +261,16 @@ TEST(ExactBasis, ThereAreBasesWhereTheStepsOfTheSolverBreakDown) {
   // A decomposition into primaries shows that the corners are colours of reflectances.
   for (const char* light : {"FL10", "FL11"}) {
     const Bands bands = *Bands::parse("380:780:5");
-    const auto space =
-        *working_space(bands, Quantity::kReflectance, kRec709, *illuminant(light), Observer::kCie1931);
+    const auto space = *working_space(bands, false, kRec709, *illuminant(light), Observer::kCie1931);
     ASSERT_TRUE(primary_decomposition(bands, space)) << light;
     EXPECT_TRUE(smoothest_basis(bands, space)) << light;
   }
   const Bands wide = *Bands::parse("360:830:5");
-  const auto d65 =
-      *working_space(wide, Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1964);
+  const auto d65 = *working_space(wide, false, kRec709, *illuminant("D65"), Observer::kCie1964);
   EXPECT_TRUE(smoothest_basis(wide, d65));
   // Found by projected gradients, with a residual below 1e-12.
   const Bands bands = *Bands::parse("380:780:5");
-  const auto ten =
-      *working_space(bands, Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1964);
+  const auto ten = *working_space(bands, false, kRec709, *illuminant("D65"), Observer::kCie1964);
   EXPECT_TRUE(primary_decomposition(bands, ten));
 }
 

@@ -104,8 +104,7 @@ TEST(ExactMethods, CornersAreTheBasesThemselves) {
 }
 
 TEST(ExactMethods, TheStoredTablesAreWhatTheProgramsFind) {
-  const auto space =
-      *working_space(Bands(), Quantity::kReflectance, kRec709, *illuminant("D65"), Observer::kCie1931);
+  const auto space = *working_space(Bands(), false, kRec709, *illuminant("D65"), Observer::kCie1931);
   for (const Method method : kMethods) {
     const auto found = method == Method::kSmitsExact ? smoothest_basis(Bands(), space)
                                                      : primary_decomposition(Bands(), space);

@@ -21,7 +21,7 @@ ColorLanes copy_of(const ColorLanes& rgb) {
   return out;
 }
 
-GamutReport limit(const Upsampler& upsampler, ColorLanes& rgb, OutOfGamut policy = OutOfGamut::kClip,
+GamutReport limit(const Upsampler& upsampler, ColorLanes& rgb, GamutPolicy policy = GamutPolicy::kClip,
                   const Execution& execution = {}) {
   const auto report = gamut_clip(upsampler, rgb.span(), policy, execution);
   EXPECT_TRUE(report);
@@ -130,7 +130,7 @@ TEST(Gamut, KeepingCountsAndChangesNothing) {
     const auto before = random_colors(257, 2, -0.5F, 1.5F);
     auto kept = copy_of(before);
     auto clipped = copy_of(before);
-    const auto report = limit(upsampler, kept, OutOfGamut::kKeep);
+    const auto report = limit(upsampler, kept, GamutPolicy::kKeep);
     const auto other = limit(upsampler, clipped);
     EXPECT_GT(report.outside, 50U);
     EXPECT_EQ(report.outside, other.outside);
@@ -146,13 +146,13 @@ TEST(Gamut, ResultsDependNeitherOnThreadsNorOnTiles) {
     auto before = random_colors(4099, 3);
     for (const std::size_t i : {777U, 778U, 1500U, 4098U}) before.at(i, i % 3) = -0.7F;
     auto want = copy_of(before);
-    const auto report = limit(upsampler, want, OutOfGamut::kClip, {1, 1U << 20U});
+    const auto report = limit(upsampler, want, GamutPolicy::kClip, {1, 1U << 20U});
     EXPECT_EQ(report.outside, 4U);
     EXPECT_EQ(report.first, 777);
     for (const int threads : {1, 3}) {
       for (const std::size_t tile : {1, 100, 1024, 100000}) {
         auto rgb = copy_of(before);
-        const auto got = limit(upsampler, rgb, OutOfGamut::kClip, {threads, tile});
+        const auto got = limit(upsampler, rgb, GamutPolicy::kClip, {threads, tile});
         EXPECT_EQ(got.outside, report.outside);
         EXPECT_EQ(got.first, report.first);
         for (std::size_t i = 0; i < rgb.lanes(); ++i)

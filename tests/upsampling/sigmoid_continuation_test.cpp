@@ -1,6 +1,7 @@
 // The way from grey to a colour: what the quick search misses is found, and what no sigmoid has ends where
 // the sigmoids end.
 #include "src/reference/sigmoid.hpp"
+#include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 #include "tests/kernels/kernel_fixture.hpp"
 #include "tests/upsampling/round_trip.hpp"
@@ -54,7 +55,8 @@ Reached reached(const KernelTable& t, const Upsampler& upsampler, const Floats& 
   Reached out{Floats(3 * n), Floats(n)};
   const float* const in[3] = {rgb.data(), rgb.data() + n, rgb.data() + 2 * n};
   float* const c[3] = {out.c.data(), out.c.data() + n, out.c.data() + 2 * n};
-  t.sigmoid_continuation(c, out.part.data(), in, upsampler.sigmoid()->table, upsampler.luminance().data(), n);
+  t.sigmoid_continuation(c, out.part.data(), in, UpsamplerAccess::sigmoid(upsampler)->table,
+                         upsampler.luminance().data(), n);
   return out;
 }
 
@@ -97,8 +99,8 @@ TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
   const float* const in[3] = {rgb.data(), rgb.data() + 64, rgb.data() + 128};
   float* const out[3] = {solved.data(), solved.data() + 64, solved.data() + 128};
   float* const other[3] = {expected.data(), expected.data() + 64, expected.data() + 128};
-  k().sigmoid_solve(out, in, upsampler.sigmoid()->table, &bits, 64);
-  ref().sigmoid_solve(other, in, upsampler.sigmoid()->table, &bits, 64);
+  k().sigmoid_solve(out, in, UpsamplerAccess::sigmoid(upsampler)->table, &bits, 64);
+  ref().sigmoid_solve(other, in, UpsamplerAccess::sigmoid(upsampler)->table, &bits, 64);
   EXPECT_TRUE(same_bits(solved, expected));
 }
 
@@ -110,8 +112,8 @@ TEST(SigmoidContinuation, TheCubeIsReachedWithoutTheQuickSearch) {
   for (std::size_t i = 0; i < grid.lanes(); ++i) {
     const float rgb[3] = {grid.at(i, 0), grid.at(i, 1), grid.at(i, 2)};
     float c[3];
-    const float part =
-        reference::sigmoid_continuation(c, rgb, upsampler.sigmoid()->table, upsampler.luminance().data());
+    const float part = reference::sigmoid_continuation(c, rgb, UpsamplerAccess::sigmoid(upsampler)->table,
+                                                       upsampler.luminance().data());
     const bool end =
         (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) || (rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1);
     ASSERT_EQ(part, end ? 0.0F : 1.0F) << rgb[0] << " " << rgb[1] << " " << rgb[2];
@@ -188,7 +190,7 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
   std::normal_distribution<double> normal(0, 4);
   for (const char* space : {"srgb", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid("380:780:5", space);
-    const kernels::SigmoidTable& table = upsampler.sigmoid()->table;
+    const kernels::SigmoidTable& table = UpsamplerAccess::sigmoid(upsampler)->table;
     std::vector<Rgb> colors;
     for (int i = 0; i < 4000; ++i) {
       const float c[3] = {static_cast<float>(normal(random)), static_cast<float>(normal(random)),
@@ -234,7 +236,7 @@ TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
     auto rgb = cube_grid(9);
     const std::uint64_t before = unsolved(upsampler, rgb);
     EXPECT_GE(before, 10U);
-    EXPECT_EQ(gamut_clip(upsampler, rgb.span(), OutOfGamut::kKeep)->outside, before);
+    EXPECT_EQ(gamut_clip(upsampler, rgb.span(), GamutPolicy::kKeep)->outside, before);
     EXPECT_EQ(gamut_clip(upsampler, rgb.span())->outside, before);
     EXPECT_EQ(unsolved(upsampler, rgb), 0U);
   }

@@ -1,7 +1,8 @@
-// From spectra to CIE XYZ, luminance and linear sRGB.
+// From spectra to CIE XYZ, luminance, a sensor's RGB and linear sRGB.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
@@ -18,7 +19,10 @@ enum class Observer {
   kCie1964,  ///< 10 degree
 };
 
-/// Three weights a band that turn a sampled spectrum into XYZ.
+class Sensor;
+class Spectrum;
+
+/// Three weights a band that turn sampled spectra into XYZ, or into a sensor's RGB.
 class Projector {
  public:
   /// For emitted or arriving light: weight = integral of the matching function over the band.
@@ -34,44 +38,50 @@ class Projector {
   static Result<Projector> reflective(const Bands& bands, const MeasuredSpectrum& light,
                                       Observer observer = Observer::kCie1931);
 
+  /// For a sensor: weight = its factor * integral of its curve, for reflectances of curve times light, over
+  /// the band. Units: as Sensor::response(). Errors: kBadArgument for planned bands, which an observer's
+  /// weights belong to.
+  static Result<Projector> emissive(const Bands& bands, const Sensor& sensor);
+  static Result<Projector> reflective(const Bands& bands, const Spectrum& light, const Sensor& sensor);
+
   const Bands& bands() const noexcept { return bands_; }
-  Observer observer() const noexcept { return observer_; }
-  /// XYZ of a spectrum that is 1 in every band: the white; its Y is 1.
+  /// None for a sensor.
+  std::optional<Observer> observer() const noexcept { return observer_; }
+  /// The colour of a spectrum that is 1 in every band: for an observer the white, whose Y is 1.
   std::array<double, 3> white() const noexcept;
   /// This projector's XYZ to linear sRGB, such that D65 is exactly RGB 1, 1, 1 as these bands and this
-  /// observer see it: a white reflector under D65, or D65 itself scaled to Y = 1. So bands that cut off part
+  /// observer see it: a perfect diffuser under D65, or D65 itself scaled to Y = 1. So bands that cut off part
   /// of the visible range do not tint white, and a method's RGB comes back exactly. Where they cut off so
   /// much that D65 is more than 10 % off in a component, it is xyz_to_srgb_matrix(). Other lights are not
-  /// adapted.
+  /// adapted. For a sensor it is the identity: see fit_sensor_to_xyz().
   const Matrix3& xyz_to_srgb() const noexcept { return xyz_to_srgb_; }
   /// Shapes: [bands][3], in double before rounding to the kernels' float.
   std::span<const std::array<double, 3>> weights() const noexcept { return weights_; }
-  /// Shapes: [bands][4], x y z 0.
-  const float* float_weights() const noexcept { return float_weights_.data(); }
-  /// Shapes: [bands].
-  const float* luminance_weights() const noexcept { return luminance_weights_.data(); }
 
  private:
+  friend struct ProjectorAccess;
   Projector() = default;
-  static Result<Projector> from_light(const Bands& bands, const MeasuredSpectrum* light, Observer observer);
+  static Result<Projector> of_observer(const Bands& bands, const MeasuredSpectrum* light, Observer observer);
+  static Result<Projector> of_sensor(const Bands& bands, const Spectrum* light, const Sensor& sensor);
+  void add_band(const std::array<double, 3>& weights);
   Bands bands_;
-  Observer observer_ = Observer::kCie1931;
-  Matrix3 xyz_to_srgb_{};
+  std::optional<Observer> observer_;
+  Matrix3 xyz_to_srgb_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::vector<std::array<double, 3>> weights_;
   std::vector<float> float_weights_;
   std::vector<float> luminance_weights_;
 };
 
-/// Projects spectra to CIE XYZ.
-/// Shapes: spectra [block][band][64]; xyz three times [lanes].
+/// Projects spectra to CIE XYZ or a sensor's RGB.
+/// Shapes: spectra [block][band][64]; color three times [lanes].
 /// Numbers: sums in runs of eight bands, relative error at most (bands / 8 + 11) * 2^-24 of the sum of
 /// magnitudes; NaN and infinities go through. Errors: kBandsMismatch when the projector was built for other
 /// bands; kSizeMismatch.
-Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan xyz,
+Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan color,
                      const Execution& execution = {});
 
-/// Luminance Y alone, for a third of the work; the same bits as the Y of project().
-/// Shapes, numbers, errors as for project().
+/// The second component alone, for a third of the work: an observer's luminance Y. The same bits as that of
+/// project(). Shapes, numbers, errors as for project().
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
                        const Execution& execution = {});
 

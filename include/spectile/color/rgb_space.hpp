@@ -38,7 +38,7 @@ Result<RgbSpace> rgb_space(std::string_view name);
 std::vector<std::string> rgb_space_names();
 
 /// XYZ of a chromaticity with Y = 1.
-std::array<double, 3> xyz_of(const std::array<double, 2>& xy);
+std::array<double, 3> chromaticity_to_xyz(const std::array<double, 2>& xy);
 
 /// RGB to XYZ such that RGB 1, 1, 1 is the space's white with Y = 1; no chromatic adaptation. The primaries
 /// must not be on a line. Source: SMPTE RP 177-1993.

@@ -1,11 +1,10 @@
-// Sensor: an observer or a camera, with exposure and white balance, and the way from its RGB to XYZ.
+// Sensor: an observer or a camera, with exposure and white balance, and a matrix from its RGB to XYZ.
 #pragma once
 
 #include <array>
 #include <optional>
-#include <span>
-#include <spectile/color/colorimetry.hpp>
-#include <spectile/lanes/wavelengths.hpp>
+#include <spectile/color/response_curves.hpp>
+#include <spectile/color/rgb_space.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <string_view>
 #include <utility>
@@ -46,36 +45,12 @@ class Sensor {
   std::array<double, 3> factors_;
 };
 
-/// Three weights a band that turn sampled spectra into a sensor's RGB.
-class SensorProjector {
- public:
-  /// For light: weight = factor * integral of the curve over the band. For reflectances, with the light on
-  /// them: of curve times light. Errors: kOutOfMemory.
-  static Result<SensorProjector> create(const Sensor& sensor, const Bands& bands,
-                                        const std::optional<Spectrum>& light = std::nullopt);
-  const Bands& bands() const noexcept { return bands_; }
-  /// Shapes: [bands][3], in double before rounding to the kernels' float.
-  std::span<const std::array<double, 3>> weights() const noexcept { return weights_; }
-  /// Shapes: [bands][4], r g b 0.
-  const float* float_weights() const noexcept { return float_weights_.data(); }
-
- private:
-  SensorProjector() = default;
-  Bands bands_;
-  std::vector<std::array<double, 3>> weights_;
-  std::vector<float> float_weights_;
-};
-
-/// Projects spectra to a sensor's RGB. Shapes, numbers and errors as for the projection to XYZ.
-Result<void> project(const SensorProjector& projector, SampledSpectraView spectra, ColorSpan rgb,
-                     const Execution& execution = {});
-
-/// A matrix from a sensor's RGB to XYZ, and what it misses by.
+/// A matrix from a sensor's RGB to XYZ, and its errors.
 struct SensorFit {
-  Matrix3 rgb_to_xyz{};         ///< XYZ relative to the white reflector under the light, Y = 1
+  Matrix3 rgb_to_xyz{};         ///< XYZ relative to the perfect diffuser under the light, Y = 1
   double mean_ciede2000 = 0;    ///< over the patches
   double max_ciede2000 = 0;     ///< over the patches
-  double white_ciede2000 = 0;   ///< of the white reflector itself
+  double white_ciede2000 = 0;   ///< of the perfect diffuser itself
   std::vector<double> patches;  ///< CIEDE2000 of each
 };
 

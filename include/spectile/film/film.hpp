@@ -1,8 +1,8 @@
 // Film: batches of spectral samples added up to pixels, the same bits in any order.
 //
-// Sums are whole numbers of steps of a grid that the film's declared range fixes: a contribution is split,
+// Sums are integers of steps of a grid that the film's declared range fixes: a contribution is split,
 // exactly, into a coarse part of at most 2^31 steps of 2^(range - 31) and a rest, rounded once to steps of
-// 2^(range - 75). Whole numbers add without error, so a pixel depends on the multiset of contributions and
+// 2^(range - 75). Integers add without error, so a pixel depends on the multiset of contributions and
 // on nothing else: not on their order, batches, threads, instruction set, or which machine added them.
 // A contribution is therefore exact down to 2^(range - 51) in magnitude and off by 2^(range - 76) at most
 // below that; 2^31 contributions as large as the range fit into a pixel, and a sum beyond that is an error.
@@ -48,16 +48,16 @@ struct BandSamples {
   RowsView radiance;
 };
 
-/// What a film is fed with.
+/// The kind of samples that a film takes.
 enum class FilmInput { kWavelengths, kBands };
 
-/// How samples come to pixels.
+/// Placement of samples in pixels.
 enum class SamplePlacement {
   kOnePixel,  ///< each to the pixel that it lies in, with its own weight: for filter-importance-sampled input
   kSplat,     ///< each to every pixel within the filter's radius, weighed by the filter
 };
 
-/// What is kept of a pixel's samples beside the sums.
+/// Statistics of a pixel's samples, kept beside the sums.
 enum class PixelStatistics {
   kNone,
   kCounts,    ///< how many reached it
@@ -78,7 +78,7 @@ struct NamedSensor {
   Sensor sensor;
 };
 
-/// What a film holds.
+/// Size, contents and ranges of a film.
 struct FilmOptions {
   int width = 0;
   int height = 0;
@@ -89,7 +89,7 @@ struct FilmOptions {
   /// Colours, at least one colour or the spectrum. XYZ for the observer, Y being 1 for radiance 1 throughout.
   std::optional<Observer> xyz = Observer::kCie1931;
   std::vector<NamedSensor> sensors;
-  /// Whether spectra are kept, and their bands. Fed with wavelengths, a band's value is the mean of the
+  /// True to keep spectra, on the bands below. Fed with wavelengths, a band's value is the mean of the
   /// radiance of those that fell into it, each weighed by one over its density.
   bool spectral = false;
   Bands bands;  ///< also those of band input
@@ -117,7 +117,7 @@ struct FilmRejections {
   friend bool operator==(const FilmRejections&, const FilmRejections&) = default;
 };
 
-/// What a film has been fed, and what it takes up.
+/// Samples that a film has taken, and its memory.
 struct FilmStats {
   std::uint64_t accepted = 0;
   FilmRejections rejected;
@@ -143,7 +143,7 @@ class Film {
   Film& operator=(Film&&) noexcept;
   ~Film();
 
-  /// Adds samples. Several threads are used where `how` says so; by default the caller's alone.
+  /// Adds samples. Several threads are used where `execution` says so; by default the caller's alone.
   /// Numbers: colour = mean over k of curve(lambda_k) * radiance_k / density_k, in float; error below (K + 8)
   /// 2^-24 of the sum of magnitudes. A sample is taken whole or not at all, see FilmRejections.
   /// Errors: kBadArgument for the other kind of input, kSizeMismatch for rows or spans of other lengths,
@@ -160,7 +160,7 @@ class Film {
   /// The pixels kept.
   PixelWindow window() const noexcept;
   FilmStats stats() const;
-  /// Whether both hold the same options and the same sums and counts, bit by bit.
+  /// True if both hold the same options and the same sums and counts, bit by bit.
   bool same_contents(const Film& other) const;
 
  private:
@@ -171,7 +171,7 @@ class Film {
   std::shared_ptr<State> state_;
 };
 
-/// What a film is developed into.
+/// Layers that a film is developed into.
 enum class FilmLayer {
   kXyz,        ///< 3 planes
   kSrgb,       ///< 3 planes, linear sRGB of the XYZ; white D65, no adaptation
@@ -180,19 +180,19 @@ enum class FilmLayer {
   kSpectrum,   ///< a plane a band
   kWeight,     ///< 1 plane: the sum of the weights
   kCount,      ///< 1 plane: samples that reached the pixel
-  kVariance,   ///< 1 plane: of the pixel's mean luminance, estimated from its samples; infinite where they
-              ///< tell nothing: below two samples, or where the sum of w^2 is not below the square of that of
+  kVariance,   ///< 1 plane: of the pixel's mean luminance, estimated from its samples; infinite where it
+              ///< is undefined: below two samples, or where the sum of w^2 is not below the square of that of
               ///< w
 };
 
-/// What one update of a development did.
+/// Tiles of one update of a development.
 struct DevelopStats {
   std::size_t developed = 0;  ///< tiles
   std::size_t unchanged = 0;  ///< tiles that nothing was added to since the last time
   std::size_t untouched = 0;  ///< tiles that no sample has reached: 0 everywhere, whatever is asked
 };
 
-/// A picture of a film, kept up to date tile by tile.
+/// A layer of a film, kept up to date tile by tile.
 class FilmDevelopment {
  public:
   /// It shows the film that this one is now, wherever that is moved to, and keeps its sums alive: assigning

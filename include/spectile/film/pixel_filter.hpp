@@ -61,7 +61,7 @@ class PixelFilter {
   double operator()(double dx, double dy) const noexcept { return along_x(dx) * along_y(dy); }
   /// Integral of the filter over the plane.
   double integral() const noexcept;
-  /// Whether it goes below 0.
+  /// True if it goes below 0.
   bool has_negative_lobes() const noexcept;
   /// Importance-samples the filter's magnitude: u, v in [0, 1) to an offset from the pixel's centre.
   FilterSample sample(double u, double v) const noexcept;

@@ -45,19 +45,12 @@ enum class NonFinite {
   kZero,  ///< the whole pixel becomes black, and is counted
 };
 
-/// What to do with components of the input below 0, in the input's own RGB.
-enum class Negative {
-  kGamut,  ///< they are colours outside the method's gamut: see GamutPolicy
-  kClip,   ///< they become 0, and their pixels are counted
-  kKeep,   ///< they stay, and so do the samples below 0 that they make
-  kStop,   ///< an error that names the first of them and their number
-};
-
-/// What to do with colours that the method cannot make, once they are in its RGB.
-enum class GamutPolicy {
-  kClip,  ///< they move to the nearest one that it can make at the same luminance and dominant wavelength
-  kKeep,  ///< they stay, and so do the samples below 0 that they make; the sigmoid comes as near as it gets
-  kStop,  ///< an error that names the first of them and their number
+/// Treatment of components of the input below 0, in the input's own RGB.
+enum class NegativeInput {
+  kGamut,  ///< colours outside the method's gamut: see GamutPolicy
+  kClip,   ///< set to 0, and their pixels are counted
+  kKeep,   ///< kept, as are the samples below 0 that they make
+  kError,  ///< an error that names the first of them and their number
 };
 
 /// How far a conversion is.
@@ -108,7 +101,7 @@ struct MethodOptions : ImageOptions {
   std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the white reflector; D65 where none
   Observer observer = Observer::kCie1931;
   std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
-  Negative negative = Negative::kGamut;
+  NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
   std::string layer;  ///< layer, view or part to take R, G, B from; empty for the plain ones
 };

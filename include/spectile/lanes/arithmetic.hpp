@@ -1,4 +1,4 @@
-// Element-wise arithmetic over whole batches of spectra, and what each lane holds over its bands.
+// Element-wise arithmetic over whole batches of spectra, and reductions over the bands of each lane.
 //
 // Rules common to all. Shapes: every batch has the same lanes and bands; `out` may be one of the inputs.
 // Numbers: float32 as IEEE 754 says, each operation rounded once; NaN and infinities go through. Errors:
@@ -70,7 +70,7 @@ Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution = {})
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution = {});
 /// Lanes equal in every band (NaN equals nothing, +0 equals -0).
 Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});
-/// Whether every lane is equal.
+/// True if every lane is equal.
 Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});
 
 }  // namespace spectile

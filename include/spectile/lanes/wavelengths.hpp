@@ -1,11 +1,10 @@
-// Sampled wavelengths in batches: drawing them, looking spectra up at them, and adding them up to colours.
+// Sampled wavelengths in batches: drawing and terminating them.
 #pragma once
 
-#include <memory>
-#include <spectile/color/colorimetry.hpp>
+#include <cstdint>
+#include <span>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/spectra/spectrum.hpp>
-#include <vector>
 
 namespace spectile {
 
@@ -60,7 +59,7 @@ struct SampledWavelengths {
   std::size_t count() const noexcept { return lambda_nm.count(); }
 };
 
-/// From which density wavelengths are drawn.
+/// The density that wavelengths are drawn from.
 enum class WavelengthSampling {
   kUniform,  ///< even over the range
   kVisible,  ///< as 1/cosh^2(0.0072 (lambda - 538 nm)), which is close to the eye's sensitivity
@@ -82,55 +81,5 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
 /// [lanes] or empty. Errors: kSizeMismatch.
 Result<void> terminate_secondary(SampledWavelengths& wavelengths,
                                  std::span<const std::uint8_t> lanes_hit = {});
-
-/// A spectrum made ready to be looked up in batches.
-///
-/// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4
-/// u (u = 2^-24) of the larger neighbour in magnitude, for wavelengths and knots rounded to float; black
-/// bodies within 6 u from 0.1 to 10^7 nm (and the least float); Gaussians within 1 u of the sum of the lobes'
-/// magnitudes; sigmoids as upsampled.
-class SpectrumSampler {
- public:
-  /// Errors: kOutOfMemory; kBadArgument for samples, slopes and ranges beyond that of float.
-  static Result<SpectrumSampler> create(const Spectrum& spectrum);
-
-  /// Shapes: values [k][lanes], as the wavelengths, in other memory. Errors: kSizeMismatch.
-  Result<void> sample(WavelengthView lambda_nm, WavelengthSpan values, const Execution& execution = {}) const;
-
- private:
-  SpectrumSampler() = default;
-  struct Tables;
-  std::shared_ptr<const Tables> tables_;
-};
-
-/// The same for a spectrum that is looked up once.
-Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
-                    const Execution& execution = {});
-
-/// Three response curves that radiance at sampled wavelengths is weighed with.
-class ResponseCurves {
- public:
-  /// Of an observer: XYZ, scaled so that Y is 1 for a spectrum that is 1 everywhere.
-  static Result<ResponseCurves> of_observer(Observer observer = Observer::kCie1931);
-  /// Any three, times a factor each, tabulated at 1 nm over the range of the observers.
-  /// Errors: kOutOfMemory; kBadArgument for a value that is not finite.
-  static Result<ResponseCurves> create(const std::array<Spectrum, 3>& curves,
-                                       const std::array<double, 3>& factors = {1, 1, 1});
-  /// [3][intervals][2], see the kernels.
-  const float* table() const noexcept { return table_->data(); }
-
- private:
-  ResponseCurves() = default;
-  std::shared_ptr<const FloatBuffer> table_;
-};
-
-/// Radiance at K sampled wavelengths a lane to XYZ or sensor RGB: the mean over k of curve(lambda_k) *
-/// radiance_k / density_k. Unbiased for wavelengths drawn with those densities; a terminated wavelength adds
-/// nothing, whatever its radiance.
-/// Shapes: radiance [k][lanes], color three times [lanes].
-/// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at
-/// the nanometres beside the wavelength; NaN and infinities go through. Errors: kSizeMismatch.
-Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
-                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& execution = {});
 
 }  // namespace spectile

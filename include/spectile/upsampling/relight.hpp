@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/result.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -12,7 +11,7 @@ namespace spectile {
 
 /// From a method's RGB to colour under a light.
 ///
-/// For mixtures of bases the way there is linear in the weights of white, secondary and primary, so bands and
+/// For mixtures of bases the colour is linear in the weights of white, secondary and primary, so bands and
 /// light fold into a table of 3 x 7 (3 x 3 for mallett), whatever the bands. The sigmoid is not linear: its
 /// coefficients are found and its samples summed in registers.
 class Relighter {
@@ -25,14 +24,13 @@ class Relighter {
   const Upsampler& upsampler() const noexcept { return *upsampler_; }
   const Projector& projector() const noexcept { return *projector_; }
   const Matrix3& matrix() const noexcept { return matrix_; }
-  /// Shapes: [3][8]: white, cyan, magenta, yellow, red, green, blue, 0. Empty for the sigmoid.
-  std::span<const float> table() const noexcept { return {table_.data(), table_.size()}; }
   /// Largest distance of a component from upsample_srgb(), project() and transform() in turn, over the
   /// largest component of the RGB, for RGB without negative components: rounding, and for smits and smits1999
-  /// the samples below 0 that the long way clamps. 0 for the sigmoid, whose bits are the same.
+  /// the samples below 0 that those clamp. 0 for the sigmoid, whose bits are the same.
   const std::array<double, 3>& bound() const noexcept { return bound_; }
 
  private:
+  friend struct RelighterAccess;
   Relighter() = default;
   const Upsampler* upsampler_ = nullptr;
   const Projector* projector_ = nullptr;

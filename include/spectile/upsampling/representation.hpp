@@ -15,7 +15,7 @@ namespace spectile {
 // which take both, and looks at the result with to_xyz(), to_rgb() and luminance().
 //
 // Light and what reaches the eye are relative to luminance 1 of a spectrum that is 1 everywhere; RGB is
-// linear sRGB, whose 1, 1, 1 is, for a reflectance, the white reflector under D65 and, for light, D65 with Y
+// linear sRGB, whose 1, 1, 1 is, for a reflectance, the perfect diffuser under D65 and, for light, D65 with Y
 // = 1. Errors common to both: kBandsMismatch for a batch of another representation, kSizeMismatch,
 // kOutOfMemory.
 

@@ -18,7 +18,7 @@
 
 namespace spectile {
 
-/// Ways from three numbers to a spectrum; their basis spectra are not interchangeable.
+/// Upsampling methods; their basis spectra are not interchangeable.
 enum class Method {
   kSmits,       ///< 32 samples, 380 to 720 nm, times 0.94 (reflectance) or 0.86445 (illuminant)
   kSmits1999,   ///< ten samples, as printed; as illuminant, times D65 scaled to luminance 1
@@ -30,14 +30,14 @@ enum class Method {
 /// The method where none is asked for. See docs/methods.md for the table by which it was chosen.
 inline constexpr Method kDefaultMethod = Method::kSmitsExact;
 
-/// What the spectra stand for.
+/// The physical quantity of the spectra.
 enum class Quantity {
   kReflectance,  ///< 0 to 1, no unit
   kUnbounded,    ///< a reflectance's shape on any scale, no unit: what may exceed 1
   kIlluminant,   ///< radiance, W/(m^2 sr nm)
 };
 
-/// What happens to samples below 0, which basis spectra with negative lobes and negative RGB give.
+/// Treatment of samples below 0, which basis spectra with negative lobes and negative RGB give.
 enum class NegativeSamples {
   kClampToZero,  ///< they become 0
   kKeep,         ///< they stay
@@ -45,9 +45,9 @@ enum class NegativeSamples {
 
 /// How results are stored in memory.
 enum class StoreHint {
-  kAuto,       ///< round the caches when the batch is larger than 64 MiB
+  kAuto,       ///< non-temporal stores for batches of more than 64 MiB
   kCached,     ///< ordinary stores: best when the spectra are read again at once
-  kStreaming,  ///< round the caches
+  kStreaming,  ///< non-temporal stores, which bypass the caches
 };
 
 /// Name and back: "smits", "smits1999", "smits-exact", "mallett", "sigmoid"; "reflectance", "unbounded",
@@ -59,11 +59,11 @@ std::vector<std::string> method_names();
 std::string_view to_string(Method method);
 std::string_view to_string(Quantity quantity);
 
-/// Under which circumstances the spectra must have the colours asked for.
+/// Viewing conditions under which the spectra must have the colours asked for.
 struct UpsamplerOptions {
   NegativeSamples negative = NegativeSamples::kClampToZero;
   Chromaticities primaries = kRec709;     ///< of the RGB; only those of smits-exact and sigmoid are free
-  std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the white reflector; D65 where none
+  std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
 };
 
@@ -71,7 +71,7 @@ struct SigmoidModel;
 
 /// A method prepared for given bands, ready for the kernels.
 ///
-/// Its RGB: primaries of the options, and RGB 1, 1, 1 is the white reflector under their light, as these
+/// Its RGB: primaries of the options, and RGB 1, 1, 1 is the perfect diffuser under their light, as these
 /// bands and this observer see it (for an illuminant, that light itself with luminance 1). `smits` and
 /// `smits1999` are published for sRGB under D65 and come near it; the others are exact for the bands.
 ///
@@ -93,22 +93,19 @@ class Upsampler {
   Quantity quantity() const noexcept { return quantity_; }
   const Bands& bands() const noexcept { return bands_; }
   const UpsamplerOptions& options() const noexcept { return options_; }
-  /// Least sample that comes out: 0, or minus infinity when negative ones are kept.
+  /// Minimum of the samples: 0, or minus infinity when negative ones are kept.
   float lowest() const noexcept { return lowest_; }
   /// Shapes: [bands][7], in double before rounding to the kernels' float; white, cyan, magenta, yellow, red,
   /// green, blue. Empty for the sigmoid.
   std::span<const std::array<double, 7>> basis() const noexcept { return basis_; }
-  /// Shapes: [bands][8], the eighth 0, 64-byte aligned. Null for the sigmoid.
-  const float* table() const noexcept { return table_.data(); }
   /// XYZ of RGB 1, 1, 1, and the matrix that goes with it: see above.
   const Matrix3& rgb_to_xyz() const noexcept { return rgb_to_xyz_; }
   /// Weights of R, G and B in the luminance that gamut_clip() keeps: the primaries' under the light as the
   /// whole visible range shows it, so that they do not depend on the bands.
   const std::array<float, 3>& luminance() const noexcept { return luminance_; }
-  /// The sigmoid's tables; null for the other methods.
-  const SigmoidModel* sigmoid() const noexcept { return sigmoid_.get(); }
 
  private:
+  friend struct UpsamplerAccess;
   Upsampler() = default;
   Method method_ = Method::kSmits;
   Quantity quantity_ = Quantity::kReflectance;
@@ -122,10 +119,12 @@ class Upsampler {
   std::shared_ptr<const SigmoidModel> sigmoid_;
 };
 
-/// What becomes of colours that a method cannot make.
-enum class OutOfGamut {
-  kClip,  ///< they move to the nearest colour that it can make on the line to the grey of their luminance
-  kKeep,  ///< they stay: bases go on linearly, the sigmoid takes the coefficients of where they would move
+/// Treatment of colours that a method cannot make, once they are in its RGB.
+enum class GamutPolicy {
+  kClip,   ///< moved to the nearest colour that it can make of the same luminance and dominant wavelength
+  kKeep,   ///< kept, as are the samples below 0 that they make: basis spectra are extrapolated linearly, the
+           ///< sigmoid takes the coefficients of the colour that they would be clipped to
+  kError,  ///< an error that names the first of them and their number
 };
 
 /// Colours of a batch that the method could not make.
@@ -139,9 +138,10 @@ struct GamutReport {
 /// that some sigmoid has, which is more than the cube of sRGB. Black, white and greys are always inside.
 /// Colours outside keep their luminance (limited to 0 to 1 for the sigmoid's reflectances) and their dominant
 /// wavelength. What has a component that is not finite stays as it is and does not count. Shapes: rgb three
-/// times [lanes]. Errors: kBadArgument for samples not aligned.
+/// times [lanes]. Errors: kBadArgument for samples not aligned, and for colours outside with
+/// GamutPolicy::kError, which leaves the batch as it is.
 Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb,
-                               OutOfGamut policy = OutOfGamut::kClip, const Execution& execution = {});
+                               GamutPolicy policy = GamutPolicy::kClip, const Execution& execution = {});
 
 /// Coefficients of a method: three for every lane, and a scale for the sigmoid's unbounded ones and lights.
 /// For methods that mix basis spectra they are the RGB itself. upsample_srgb() is coefficients() and
@@ -163,7 +163,7 @@ Result<void> coefficients(const Upsampler& upsampler, ColorView rgb, Coefficient
 
 /// Coefficients to spectra: the bits of upsample_srgb(). Errors: kBandsMismatch, kSizeMismatch.
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraSpan spectra,
-                    StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
+                    StoreHint hint = StoreHint::kAuto, const Execution& execution = {});
 
 /// Linear RGB (sRGB, or of the primaries that the upsampler was created with) to spectra.
 /// Shapes: rgb three times [lanes]; spectra [block][band][64].
@@ -173,11 +173,11 @@ Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, Samp
 /// infinities, NaN or, where the result is minus infinity and negative samples are not kept, 0. The sigmoid:
 /// see coefficients(). Errors: kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
-                           StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
+                           StoreHint hint = StoreHint::kAuto, const Execution& execution = {});
 
-/// CIE XYZ to spectra, by way of linear sRGB with its D65 white (see xyz_to_srgb).
+/// CIE XYZ to spectra, through linear sRGB with its D65 white (see xyz_to_srgb).
 /// Shapes, numbers, errors as for upsample_srgb.
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
-                          StoreHint stores = StoreHint::kAuto, const Execution& execution = {});
+                          StoreHint hint = StoreHint::kAuto, const Execution& execution = {});
 
 }  // namespace spectile

@@ -7,15 +7,15 @@ namespace {
 constexpr Choice<Quantity> kQuantities[] = {{"reflectance", Quantity::kReflectance},
                                             {"unbounded", Quantity::kUnbounded},
                                             {"illuminant", Quantity::kIlluminant}};
-constexpr Choice<Negative> kNegatives[] = {{"gamut", Negative::kGamut},
-                                           {"clip", Negative::kClip},
-                                           {"keep", Negative::kKeep},
-                                           {"error", Negative::kStop},
-                                           {"stop", Negative::kStop}};
+constexpr Choice<NegativeInput> kNegatives[] = {{"gamut", NegativeInput::kGamut},
+                                                {"clip", NegativeInput::kClip},
+                                                {"keep", NegativeInput::kKeep},
+                                                {"error", NegativeInput::kError},
+                                                {"stop", NegativeInput::kError}};
 constexpr Choice<GamutPolicy> kGamutPolicies[] = {{"clip", GamutPolicy::kClip},
                                                   {"keep", GamutPolicy::kKeep},
-                                                  {"error", GamutPolicy::kStop},
-                                                  {"stop", GamutPolicy::kStop}};
+                                                  {"error", GamutPolicy::kError},
+                                                  {"stop", GamutPolicy::kError}};
 
 }  // namespace
 

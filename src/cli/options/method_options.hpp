@@ -15,7 +15,7 @@ struct MethodArguments {
   std::string white;
   Observer white_observer = Observer::kCie1931;
   std::string input_space;
-  Negative negative = Negative::kGamut;
+  NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;
   std::string layer;
 };

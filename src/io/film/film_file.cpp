@@ -132,8 +132,8 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   State& s = FilmAccess::state(film);
   const std::unique_lock lock(s.whole);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) {
-    const std::scoped_lock tile(s.mutex_of(t));  // a development may be looking at it
-    s.settle(t);
+    const std::scoped_lock tile(s.tile_mutex(t));  // a development may be looking at it
+    s.normalize_carries(t);
   }
   if (s.overflown) return film_overflow(s);
   const PixelWindow window = touched_window(s);
@@ -237,7 +237,7 @@ Result<LoadedFilm> load(const std::string& path, int threads) {
   }
   SPECTILE_TRY(read_limbs(*input, s, limbs, data));
   copy_weights(s);
-  for (std::size_t t = 0; t < s.tiles.size(); ++t) s.settle(t);
+  for (std::size_t t = 0; t < s.tiles.size(); ++t) s.normalize_carries(t);
   if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
   return LoadedFilm{FilmAccess::make(std::move(described.state)), std::move(described.progress)};
 }

@@ -112,15 +112,15 @@ const char* text_of(Adaptation adaptation) {
   return "none";
 }
 
-const char* text_of(Negative negative) {
+const char* text_of(NegativeInput negative) {
   switch (negative) {
-    case Negative::kClip:
+    case NegativeInput::kClip:
       return "clip";
-    case Negative::kKeep:
+    case NegativeInput::kKeep:
       return "keep";
-    case Negative::kStop:
+    case NegativeInput::kError:
       return "stop";
-    case Negative::kGamut:
+    case NegativeInput::kGamut:
       break;
   }
   return "gamut";
@@ -130,7 +130,7 @@ const char* text_of(GamutPolicy policy) {
   switch (policy) {
     case GamutPolicy::kKeep:
       return "keep";
-    case GamutPolicy::kStop:
+    case GamutPolicy::kError:
       return "stop";
     case GamutPolicy::kClip:
       break;

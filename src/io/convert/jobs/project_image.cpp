@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/color/color_matrix.hpp"
+#include "src/color/kernel_tables.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
@@ -61,7 +62,7 @@ class ProjectJob : public io::ColorJob {
       const float* const xyz[3] = {rows[0], rows[1], rows[2]};
       kernels().transform3(rows, xyz, matrix_.data(), color.padded);
     }
-    io::settle_range(kernels(), rows, width, line, Negative::kKeep, stats);
+    io::settle_range(kernels(), rows, width, line, NegativeInput::kKeep, stats);
   }
 
   /// Blocks that are gathered and then projected together; they stay in the caches.
@@ -81,10 +82,11 @@ class ProjectJob : public io::ColorJob {
         source_.block(kernels(), strip, line, at + b * kLanesPerBlock, spectra + b * bands * kLanesPerBlock);
       }
       if (options_.target == ColorTarget::kLuminance) {
-        kernels().weighted_sum(rows[0] + at, spectra, projector_.luminance_weights(), bands, count);
+        kernels().weighted_sum(rows[0] + at, spectra, ProjectorAccess::luminance_weights(projector_), bands,
+                               count);
       } else {
-        kernels().project(rows[0] + at, rows[1] + at, rows[2] + at, spectra, projector_.float_weights(),
-                          bands, count);
+        kernels().project(rows[0] + at, rows[1] + at, rows[2] + at, spectra,
+                          ProjectorAccess::weights(projector_), bands, count);
       }
     }
     if (options_.target == ColorTarget::kLuminance) {

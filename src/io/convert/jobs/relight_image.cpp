@@ -13,7 +13,7 @@
 #include "src/io/convert/stages/color_stage.hpp"
 #include "src/io/exr/attributes.hpp"
 #include "src/lanes/tiles.hpp"
-#include "src/upsampling/relight_rows.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
 namespace {

@@ -6,6 +6,8 @@
 #include <spectile/image/image.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/color/kernel_tables.hpp"
+#include "src/color/working_space.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
@@ -16,7 +18,6 @@
 #include "src/reference/oracle/oracle.hpp"
 #include "src/reference/table.hpp"
 #include "src/upsampling/method_rows.hpp"
-#include "src/upsampling/working_space.hpp"
 
 namespace spectile {
 namespace {
@@ -89,8 +90,8 @@ Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptio
   UpsamplingOracle out{upsampler, {}, {}};
   if (!rows::mixes_bases(upsampler)) {
     const MeasuredSpectrum light = options.light ? options.light->spectrum : *illuminant("D65");
-    SPECTILE_ASSIGN(out.space,
-                    working_space(options.bands, options.quantity, kRec709, light, options.observer));
+    SPECTILE_ASSIGN(out.space, working_space(options.bands, options.quantity == Quantity::kIlluminant,
+                                             kRec709, light, options.observer));
     return out;
   }
   // The published bases have an oracle of their own; the exact ones are double already.
@@ -152,8 +153,8 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     source.block(kernels, strip, line, at, block);
     const auto run = [&](const kernels::KernelTable& table, float* out) {
-      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block, projector.float_weights(),
-                    bands, 1);
+      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block,
+                    ProjectorAccess::weights(projector), bands, 1);
     };
     run(kernels, ours);
     run(reference::table, expected);

@@ -81,7 +81,8 @@ Matrix3 to_srgb(const RgbSpace& space, Quantity quantity) {
     return product(xyz_to_srgb_matrix(), to_xyz);
   }
   const Matrix3 adapt =
-      adaptation_matrix(Adaptation::kBradford, xyz_of(space.chromaticities.white), xyz_of(kRec709.white));
+      adaptation_matrix(Adaptation::kBradford, chromaticity_to_xyz(space.chromaticities.white),
+                        chromaticity_to_xyz(kRec709.white));
   return product(xyz_to_srgb_matrix(), product(adapt, to_xyz));
 }
 

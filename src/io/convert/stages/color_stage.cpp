@@ -15,8 +15,8 @@ ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, cons
       options_(options),
       kernels_(kernels),
       space_(options.input_space ? *options.input_space : source.color_space()),
-      out_of_gamut_(options.out_of_gamut.value_or(options.negative == Negative::kKeep ? GamutPolicy::kKeep
-                                                                                      : GamutPolicy::kClip)) {
+      out_of_gamut_(options.out_of_gamut.value_or(
+          options.negative == NegativeInput::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip)) {
   convert_ = !is_srgb(space_);
   matrix_ = color::to_float(to_srgb(space_, options.quantity));
 }
@@ -44,17 +44,17 @@ ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::si
   if (convert_) {
     kernels_.transform3(rows, rgb, matrix_.data(), color.padded);
     own = {};
-    largest = settle_range(kernels_, rows, width, line, Negative::kKeep, own);
+    largest = settle_range(kernels_, rows, width, line, NegativeInput::kKeep, own);
   }
   stats.over_one += own.over_one;
   // Most lines have no colour that any method could not make.
   const bool bounded = !rows::mixes_bases(upsampler_) && options_.quantity == Quantity::kReflectance;
   return {largest,
-          own.negative.count > 0 || (bounded && own.over_one > 0) || rows::misses_inside(upsampler_)};
+          own.negative.count > 0 || (bounded && own.over_one > 0) || !rows::covers_unit_cube(upsampler_)};
 }
 
 void ColorStage::limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
-  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, color.rows, limiting(), width);
+  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, color.rows, out_of_gamut_, width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
 }
 
@@ -63,11 +63,11 @@ std::optional<Error> ColorStage::refusal(const std::string& path, const LineStat
     return stopped_at(path, ErrorCode::kNonFinite, "non-finite", stats.nonfinite.moved(source_.offset()),
                       "--nonfinite zero makes them black");
   }
-  if (options_.negative == Negative::kStop && stats.negative.count > 0) {
+  if (options_.negative == NegativeInput::kError && stats.negative.count > 0) {
     return stopped_at(path, ErrorCode::kBadFile, "negative", stats.negative.moved(source_.offset()),
                       "--negative clip or keep converts them");
   }
-  if (out_of_gamut_ == GamutPolicy::kStop && stats.outside.count > 0) {
+  if (out_of_gamut_ == GamutPolicy::kError && stats.outside.count > 0) {
     return stopped_at(path, ErrorCode::kBadFile, "out-of-gamut", stats.outside.moved(source_.offset()),
                       "--out-of-gamut clip or keep converts them");
   }
@@ -77,7 +77,7 @@ std::optional<Error> ColorStage::refusal(const std::string& path, const LineStat
 Result<Upsampler> upsampler_for(const MethodOptions& options) {
   UpsamplerOptions out;
   const GamutPolicy gamut = options.out_of_gamut.value_or(
-      options.negative == Negative::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip);
+      options.negative == NegativeInput::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip);
   if (gamut == GamutPolicy::kKeep) out.negative = NegativeSamples::kKeep;
   if (options.light) out.light = options.light->spectrum;
   out.observer = options.observer;

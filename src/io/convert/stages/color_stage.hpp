@@ -39,10 +39,6 @@ class ColorStage {
   /// The space that the input's RGB is taken for.
   const RgbSpace& space() const noexcept { return space_; }
   GamutPolicy out_of_gamut() const noexcept { return out_of_gamut_; }
-  /// What limit() does with colours outside.
-  OutOfGamut limiting() const noexcept {
-    return out_of_gamut_ == GamutPolicy::kClip ? OutOfGamut::kClip : OutOfGamut::kKeep;
-  }
   /// The error that what was found makes of the conversion, if it forbids an output.
   std::optional<Error> refusal(const std::string& path, const LineStats& stats) const;
 

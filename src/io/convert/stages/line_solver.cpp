@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::io {
 namespace {
 
@@ -23,7 +25,7 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
       mixes_(rows::mixes_bases(upsampler)),
       skip_(skip) {
   if (mixes_ || !skip) return;
-  table_ = std::make_unique<rows::ColorTable>(kernels, upsampler, stage.limiting(), pixels);
+  table_ = std::make_unique<rows::ColorTable>(kernels, upsampler, stage.out_of_gamut(), pixels);
   alignas(64) float rows[4][kLanesPerBlock] = {};
   std::uint64_t unsolved = 0;
   const float* const rgb[3] = {rows[0], rows[1], rows[2]};
@@ -138,7 +140,7 @@ void LineSolver::solve_run(Work& work, const ColorLine& rgb, const ColorRun& run
   // A constant run's first block stands for all of it.
   const std::size_t n = constant ? std::min(run.pixels, kLanesPerBlock) : run.pixels;
   float* const from[3] = {rgb.rows[0] + first, rgb.rows[1] + first, rgb.rows[2] + first};
-  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, from, stage_.limiting(), n);
+  const GamutReport found = rows::gamut_clip(kernels_, upsampler_, from, stage_.out_of_gamut(), n);
   if (found.outside > 0) {
     stats.outside.add(constant ? run.pixels : found.outside,
                       static_cast<int>(first) + static_cast<int>(found.first), line);

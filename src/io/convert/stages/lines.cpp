@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::io {
 
 Result<ColorLine> ColorLine::create(int width) {
@@ -50,7 +52,7 @@ void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3],
 }
 
 float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                   Negative policy, LineStats& stats) {
+                   NegativeInput policy, LineStats& stats) {
   const kernels::RgbScan found = scan(kernels, rows, width);
   stats.over_one += found.over_one;
   float largest = found.maximum;
@@ -60,7 +62,7 @@ float settle_range(const kernels::KernelTable& kernels, float* const rows[3], st
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, -rows[k][x]);
     }
-    if (policy == Negative::kClip) {
+    if (policy == NegativeInput::kClip) {
       const std::size_t padded = blocks_for(width) * kLanesPerBlock;
       for (std::size_t k = 0; k < 3; ++k) {
         kernels.clamp(rows[k], rows[k], 0.0F, std::numeric_limits<float>::infinity(), padded);

@@ -30,6 +30,6 @@ void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3],
 /// Counts pixels with a component below 0 and above 1, and clips the former when asked to. Returns the
 /// largest magnitude of a component.
 float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                   Negative policy, LineStats& stats);
+                   NegativeInput policy, LineStats& stats);
 
 }  // namespace spectile::io

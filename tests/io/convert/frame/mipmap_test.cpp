@@ -58,7 +58,7 @@ TEST_F(Mipmap, SizesThatDoNotHalveAreCoveredExactly) {
 TEST_F(Mipmap, OfSamplesThatAreLimitedAreAveragesOfThose) {
   make(37, 23);
   for (const GamutPolicy policy : {GamutPolicy::kClip, GamutPolicy::kKeep}) {
-    for (const Negative negative : {Negative::kGamut, Negative::kClip, Negative::kKeep}) {
+    for (const NegativeInput negative : {NegativeInput::kGamut, NegativeInput::kClip, NegativeInput::kKeep}) {
       for (const Method method : {Method::kSmits, Method::kSmits1999, Method::kMallett}) {
         SCOPED_TRACE(to_string(method));
         UpsampleImageOptions options;

@@ -119,12 +119,12 @@ void add_method_options(Texts& texts, const Options& usual) {
                         o.light = NamedLight{"lamp\"", kLamp.spectrum};
                       }},
                      {"white observer", [](Options& o) { o.observer = Observer::kCie1964; }},
-                     {"clip negative", [](Options& o) { o.negative = Negative::kClip; }},
-                     {"keep negative", [](Options& o) { o.negative = Negative::kKeep; }},
-                     {"stop at negative", [](Options& o) { o.negative = Negative::kStop; }},
+                     {"clip negative", [](Options& o) { o.negative = NegativeInput::kClip; }},
+                     {"keep negative", [](Options& o) { o.negative = NegativeInput::kKeep; }},
+                     {"stop at negative", [](Options& o) { o.negative = NegativeInput::kError; }},
                      {"clip gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kClip; }},
                      {"keep gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kKeep; }},
-                     {"stop at gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kStop; }},
+                     {"stop at gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kError; }},
                      {"under D65",
                       [](Options& o) {
                         o.input_space = *rgb_space("srgb");

@@ -22,7 +22,7 @@ class ExpandErrors : public testing::Test {
   ExpandErrors() {
     UpsampleImageOptions options = test::options_of({Method::kSigmoid, Quantity::kIlluminant});
     options.light = NamedLight{"lamp", *illuminant("A")};
-    options.negative = Negative::kKeep;
+    options.negative = NegativeInput::kKeep;
     good_ = compact(options);
   }
 

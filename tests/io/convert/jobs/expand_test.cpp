@@ -83,19 +83,19 @@ TEST_P(Expand, GivesTheBitsForWideColoursAndKeptNegatives) {
   test::Picture picture = test::every_color(67, 5);
   picture.header.insert("colorInteropID", Imf::StringAttribute("lin_rec2020_scene"));
   UpsampleImageOptions options = test::options_of(GetParam());
-  for (const Negative negative : {Negative::kClip, Negative::kKeep}) {
+  for (const NegativeInput negative : {NegativeInput::kClip, NegativeInput::kKeep}) {
     options.negative = negative;
     make(picture, options);
     for (const PixelType pixel : {PixelType::kHalf, PixelType::kFloat}) {
       options.pixel = pixel;
-      expect_same(options, negative == Negative::kKeep ? "kept" : "clipped");
+      expect_same(options, negative == NegativeInput::kKeep ? "kept" : "clipped");
     }
   }
 }
 
 TEST_P(Expand, PixelsLimitedInHalfAreThoseWithALargerSampleInFloat) {
   UpsampleImageOptions options = test::options_of(GetParam());
-  options.negative = Negative::kKeep;
+  options.negative = NegativeInput::kKeep;
   test::Picture picture = test::every_color(67, 5);
   for (const char* name : {"R", "G", "B"})
     picture.planes.at(name).set(picture.index(2, 3), name[0] == 'R' ? 0 : -9e4);

@@ -32,7 +32,7 @@ test::Picture flat(const Triple& color) {
 
 class ColorSpaces : public testing::Test {
  protected:
-  Result<ImageReport> convert(test::Picture picture, Quantity quantity, Negative negative = Negative::kGamut,
+  Result<ImageReport> convert(test::Picture picture, Quantity quantity, NegativeInput negative = NegativeInput::kGamut,
                               std::optional<GamutPolicy> gamut = std::nullopt) {
     test::write_scanlines(folder_ / "in.exr", picture);
     UpsampleImageOptions options;
@@ -169,7 +169,7 @@ TEST_F(ColorSpaces, ColorsOutsideSrgbAreCounted) {
   EXPECT_EQ(report->negative_pixels, 0U);
   EXPECT_EQ(report->out_of_gamut_pixels, 6U);
   const auto stopped = convert(with(flat({0, 1, 0}), "lin_rec2020_scene"), Quantity::kReflectance,
-                               Negative::kGamut, GamutPolicy::kStop);
+                               NegativeInput::kGamut, GamutPolicy::kError);
   EXPECT_FALSE(stopped);
 }
 

@@ -128,7 +128,7 @@ TEST_F(PixelMasks, MaskedPixelsMayHoldAnything) {
     return corner(x, y) ? (x % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : -3) : 0.5;
   });
   picture_.add("A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
-  options_.negative = Negative::kStop;
+  options_.negative = NegativeInput::kError;
   test::write_scanlines(folder_ / "in.exr", picture_);
   const auto report = upsample_image(folder_ / "in.exr", folder_ / "out.exr", options_);
   ASSERT_TRUE(report) << report.error().message;

@@ -128,7 +128,7 @@ TEST(InvalidPixels, NegativeOnesAreClippedKeptOrRefused) {
   ASSERT_TRUE(clipped) << clipped.error().message;
   EXPECT_EQ(clipped->negative_pixels, 2U);
   const test::Picture clip = test::read_picture(folder / "clip.exr");
-  options.negative = Negative::kKeep;
+  options.negative = NegativeInput::kKeep;
   const auto kept = upsample_image(input, folder / "keep.exr", options);
   ASSERT_TRUE(kept) << kept.error().message;
   EXPECT_EQ(kept->negative_pixels, 2U);
@@ -140,7 +140,7 @@ TEST(InvalidPixels, NegativeOnesAreClippedKeptOrRefused) {
     EXPECT_NEAR(keep.at(name, 5, 1), -0.5, 0.06) << name;
     EXPECT_EQ(clip.at(name, 20, 20) >= 0, true) << name;
   }
-  options.negative = Negative::kStop;
+  options.negative = NegativeInput::kError;
   const auto stopped = upsample_image(input, folder / "stop.exr", options);
   ASSERT_FALSE(stopped);
   EXPECT_THAT(stopped.error().message, testing::HasSubstr("2 negative pixels, the first at 5,1;"));
@@ -151,7 +151,7 @@ TEST(InvalidPixels, NegativeZeroIsNotNegative) {
   const test::TempFolder folder;
   const std::string input = make_input(folder, Imf::HALF, [](test::Picture& p) { set(p, "R", 5, 1, -0.0); });
   UpsampleImageOptions options;
-  options.negative = Negative::kStop;
+  options.negative = NegativeInput::kError;
   const auto report = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->negative_pixels, 0U);
@@ -189,7 +189,7 @@ TEST(InvalidPixels, KeptNegativeSamplesBeyondHalfAreLimitedAndCounted) {
     for (const char* name : {"R", "G", "B"}) set(p, name, 1, 0, -1e6);
   });
   UpsampleImageOptions options;
-  options.negative = Negative::kKeep;
+  options.negative = NegativeInput::kKeep;
   const auto report = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->clamped_pixels, 1U);

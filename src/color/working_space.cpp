@@ -1,5 +1,5 @@
-// The RGB in which a method works, for given bands, light, observer and primaries.
-#include "src/upsampling/working_space.hpp"
+// Working spaces for given bands, light, observer and primaries.
+#include "src/color/working_space.hpp"
 
 #include <cmath>
 
@@ -8,15 +8,14 @@
 
 namespace spectile {
 
-Result<WorkingSpace> working_space(const Bands& bands, Quantity quantity, const Chromaticities& primaries,
+Result<WorkingSpace> working_space(const Bands& bands, bool emission, const Chromaticities& primaries,
                                    const MeasuredSpectrum& light, Observer observer) {
-  const bool emits = quantity == Quantity::kIlluminant;
-  SPECTILE_ASSIGN(const auto projector, emits ? Projector::emissive(bands, observer)
-                                              : Projector::reflective(bands, light, observer));
+  SPECTILE_ASSIGN(const auto projector, emission ? Projector::emissive(bands, observer)
+                                                 : Projector::reflective(bands, light, observer));
   const auto xyz_weights = projector.weights();
   WorkingSpace out;
   out.white.assign(bands.count(), 1.0);
-  if (emits) {
+  if (emission) {
     SPECTILE_ASSIGN(auto white, light_samples(light, bands));
     out.white = std::move(white);
     double luminance = 0;

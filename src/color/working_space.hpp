@@ -1,10 +1,8 @@
-// The RGB in which a method works: what weighs a sampled spectrum into RGB such that white is exactly 1,
-// 1, 1.
+// A working space: weights of a sampled spectrum to RGB such that white is exactly 1, 1, 1.
 #pragma once
 
 #include <array>
 #include <spectile/color/colorimetry.hpp>
-#include <spectile/upsampling/upsample.hpp>
 #include <vector>
 
 namespace spectile {
@@ -19,11 +17,11 @@ struct WorkingSpace {
   Matrix3 rgb_to_xyz{};               ///< with that white
 };
 
-/// For reflectances: RGB 1, 1, 1 is the white reflector under `light`. For light: it is `light` itself,
+/// For reflectances: RGB 1, 1, 1 is the perfect diffuser under `light`. For emission: it is `light` itself,
 /// scaled to Y = 1. The space's own white only says which light that should be; the bands' and the light's
 /// own white counts, so that bands that cut off part of the visible range do not tint it. Errors:
 /// kBadArgument where the light has no luminance in the bands, or primaries and white span no RGB.
-Result<WorkingSpace> working_space(const Bands& bands, Quantity quantity, const Chromaticities& primaries,
+Result<WorkingSpace> working_space(const Bands& bands, bool emission, const Chromaticities& primaries,
                                    const MeasuredSpectrum& light, Observer observer);
 
 }  // namespace spectile

@@ -7,10 +7,10 @@
 namespace spectile::rows {
 
 template <class Float>
-class RowsOf {
+class RowPointers {
  public:
   template <class View>
-  RowsOf(const View& view, std::size_t lane) {
+  RowPointers(const View& view, std::size_t lane) {
     for (std::size_t k = 0; k < view.count && k < rows_.size(); ++k) rows_[k] = view.row(k) + lane;
   }
   Float* const* data() const noexcept { return rows_.data(); }
