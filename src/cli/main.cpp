@@ -17,7 +17,8 @@ int run(int argc, char** argv) {
   using namespace spectile::cli;
   CLI::App app{
       "Turns RGB textures into spectral OpenEXR images and back, relights them, and accumulates spectral "
-      "samples."};
+      "samples.",
+      "spectile"};
   app.footer(
       "Example:\n  spectile upsample wood.exr -o wood-spectral.exr\n"
       "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space or no permission,\n"
