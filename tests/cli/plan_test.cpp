@@ -123,7 +123,7 @@ TEST_F(PlanCommand, WrongUsageIsTwo) {
   expect_failure({"--illuminant", "D65", "--bands", "2"}, 2, "--bands");
   expect_failure({"--illuminant", "D66", "--bands", "8"}, 2, "D66");
   expect_failure({"--illuminant", "D65", "--illuminant", "d65", "--bands", "8"}, 2,
-                 "two lights are called D65");
+                 "two illuminants are called D65");
   expect_failure({"--illuminant", "D65", "--bands", "8", "--bounces", "5"}, 2, "--bounces");
   expect_failure({"--illuminant", "D65", "--bands", "8", "--folds", "1"}, 2, "1 folds");
   expect_failure({"--illuminant", "D65", "--max-error", "-1"}, 2, "-1");
