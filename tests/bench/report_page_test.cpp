@@ -51,7 +51,7 @@ std::vector<std::string> parts(const std::string& text, const std::string& from,
   return out;
 }
 
-/// What is wrong with the tags of a page; empty for nothing. Every element must be closed, in order, every
+/// The first error in the tags of a page; empty for none. Every element must be closed, in order, every
 /// attribute quoted, and every & begin a name.
 std::string flaw_in_tags(const std::string& page) {
   std::vector<std::string> open;

@@ -140,7 +140,7 @@ TEST_P(PlannedBands, GiveEveryColourBackExactly) {
   }
 }
 
-TEST_P(PlannedBands, RelightAsThePlanPromises) {
+TEST_P(PlannedBands, RelightWithinThePlansError) {
   const auto upsampler = Upsampler::create(Method::kSmitsExact, Quantity::kReflectance, bands_);
   const auto under = Projector::reflective(bands_, *illuminant("FL11"));
   ASSERT_TRUE(upsampler && under);

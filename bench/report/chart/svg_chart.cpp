@@ -21,8 +21,8 @@ constexpr const char* kInk = "#1b1f24";
 constexpr const char* kGrid = "#d5dae0";
 constexpr const char* kOutline = "#30363d";
 constexpr const char* kFrontier = "#5b6470";
-constexpr double kReach = 1.25;    // of a mark, over its radius: corners stand out
-constexpr double kZeroStrip = 30;  // pixels below the axis, for errors of 0
+constexpr double kMarkExtent = 1.25;  // of a mark, over its radius: corners stand out
+constexpr double kZeroStrip = 30;     // pixels below the axis, for errors of 0
 
 struct Format {
   double width, font, plot_height, left, radius;
@@ -220,7 +220,7 @@ void Drawing::series_lines() {
 void Drawing::labels() {
   LabelPlaces places({f_.left + 2, top_ + 2, right_ - 2, bottom_ + (zeros_ ? kZeroStrip : 0) - 2}, f_.font);
   for (const Placed& p : placed_) {
-    const double r = kReach * p.radius + 1;
+    const double r = kMarkExtent * p.radius + 1;
     places.occupy({p.x - r, p.y - r, p.x + r, p.y + r});
   }
   for (std::size_t i = 1; i < staircase_.size(); ++i) {
@@ -246,9 +246,9 @@ void Drawing::labels() {
     for (const Placed& p : placed_) {
       const bool named = !p.mark->label.empty() && (p.mark->frontier || p.style == 0);
       if (p.mark->frontier != frontier) continue;
-      const auto label =
-          named ? places.place(p.x, p.y, kReach * p.radius, p.mark->label, LabelPlaces::LabelDistance::kClear)
-                : std::nullopt;
+      const auto label = named ? places.place(p.x, p.y, kMarkExtent * p.radius, p.mark->label,
+                                              LabelPlaces::LabelDistance::kClear)
+                               : std::nullopt;
       if (label) {
         write(p, *label);
       } else {
@@ -258,8 +258,8 @@ void Drawing::labels() {
   }
   for (const Placed* p : unnamed) {
     if (p->mark->number.empty()) continue;
-    const auto label =
-        places.place(p->x, p->y, kReach * p->radius, p->mark->number, LabelPlaces::LabelDistance::kBeside);
+    const auto label = places.place(p->x, p->y, kMarkExtent * p->radius, p->mark->number,
+                                    LabelPlaces::LabelDistance::kBeside);
     if (!label) continue;
     write(*p, *label);
     numbered.push_back(p);
