@@ -18,34 +18,34 @@ bool same(std::span<const double> a, std::span<const double> b) {
   return std::ranges::equal(a, b, [](double x, double y) { return same(x, y); });
 }
 
-bool same(const PlanPromise& a, const PlanPromise& b) {
+template <class Error>
+bool same_error(const Error& a, const Error& b) {
   return a.light == b.light && a.bounces == b.bounces && same(a.error.mean, b.error.mean) &&
          same(a.error.percentile95, b.error.percentile95) && same(a.error.maximum, b.error.maximum);
 }
 
-bool same(const PlanLight& a, const PlanLight& b) {
+bool same(const BandLight& a, const BandLight& b) {
   return a.name == b.name && same(a.emission, b.emission) &&
          same(a.spectrum.wavelengths_nm(), b.spectrum.wavelengths_nm()) &&
          same(a.spectrum.values(), b.spectrum.values());
 }
 
 void require_same(const Plan& a, const Plan& b, const std::string& text) {
-  fuzz::require(a.observer == b.observer, "the observer comes back", text);
+  fuzz::require(a.weights.observer == b.weights.observer, "the observer comes back", text);
   fuzz::require(same(a.wavelengths_nm, b.wavelengths_nm), "wavelengths come back to the bit", text);
+  fuzz::require(std::ranges::equal(a.weights.sensor, b.weights.sensor,
+                                   [](const auto& x, const auto& y) { return same(x, y); }),
+                "sensor weights come back to the bit", text);
+  fuzz::require(std::ranges::equal(a.weights.lights, b.weights.lights,
+                                   [](const auto& x, const auto& y) { return same(x, y); }),
+                "lights come back to the bit", text);
+  fuzz::require(std::ranges::equal(a.report.errors, b.report.errors,
+                                   [](const auto& x, const auto& y) { return same_error(x, y); }),
+                "errors come back to the bit", text);
   fuzz::require(
-      std::ranges::equal(a.sensor, b.sensor, [](const auto& x, const auto& y) { return same(x, y); }),
-      "sensor weights come back to the bit", text);
-  fuzz::require(
-      std::ranges::equal(a.lights, b.lights, [](const auto& x, const auto& y) { return same(x, y); }),
-      "lights come back to the bit", text);
-  fuzz::require(
-      std::ranges::equal(a.promises, b.promises, [](const auto& x, const auto& y) { return same(x, y); }),
-      "promises come back to the bit", text);
-  fuzz::require(std::ranges::equal(a.even, b.even,
-                                   [](const auto& x, const auto& y) {
-                                     return x.bands == y.bands && same(x.promise, y.promise);
-                                   }),
-                "promises of even bands come back to the bit", text);
+      std::ranges::equal(a.report.even_bands, b.report.even_bands,
+                         [](const auto& x, const auto& y) { return x.bands == y.bands && same_error(x, y); }),
+      "errors of even bands come back to the bit", text);
 }
 
 }  // namespace
@@ -57,8 +57,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                   plan.error().message);
     return 0;
   }
-  fuzz::require(plan->count() > 0 && !plan->lights.empty() && plan->sensor.size() == plan->count(),
-                "a plan has wavelengths, lights, and a weight for each");
+  fuzz::require(
+      plan->count() > 0 && !plan->weights.lights.empty() && plan->weights.sensor.size() == plan->count(),
+      "a plan has wavelengths, lights, and a weight for each");
   const std::string text = plan_to_json(*plan);
   const auto again = parse_plan(text, "case");
   fuzz::require(static_cast<bool>(again), "a written plan can be read",

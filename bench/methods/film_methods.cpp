@@ -11,7 +11,7 @@
 #include "bench/baseline/aos_baseline.hpp"
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 
 namespace spectile::measure {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <spectile/spectra/named_spectra.hpp>
-#include <spectile/spectra/spectrum.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "src/base/errors.hpp"
 
@@ -23,16 +23,16 @@ Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quic
     SPECTILE_ASSIGN(auto spectrum, rgb_albedo_spectrum(upsampler, rgb));
     options.reflectances.emplace_back(std::move(spectrum));
   }
-  SPECTILE_ASSIGN(auto found, find_spectrum(light));
-  options.lights.push_back({light, std::move(found)});
-  options.sampling = PlanSampling::kBands;
+  SPECTILE_ASSIGN(auto under, find_light(light));
+  options.lights.push_back(std::move(under));
+  options.sampling = BandSampling::kAverages;
   options.folds = 0;
   std::vector<Bands> out;
   for (const std::size_t count : {std::size_t{8}, std::size_t{12}}) {
     if (quick && count != 8) continue;
     options.bands = count;
     SPECTILE_ASSIGN(auto plan, make_plan(options));
-    SPECTILE_ASSIGN(auto bands, Bands::of_plan(plan));
+    SPECTILE_ASSIGN(auto bands, planned_bands(plan));
     out.push_back(std::move(bands));
   }
   return out;

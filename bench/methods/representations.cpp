@@ -9,7 +9,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 
 namespace spectile::measure {
 namespace {

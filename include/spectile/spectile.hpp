@@ -27,11 +27,15 @@
 #include <spectile/radiometry/radiometry.hpp>
 #include <spectile/result.hpp>
 #include <spectile/scene/procedural_scene.hpp>
+#include <spectile/spectra/band_weights.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
+#include <spectile/spectra/named_light.hpp>
 #include <spectile/spectra/named_spectra.hpp>
+#include <spectile/spectra/observer.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <spectile/units.hpp>
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/representation.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 #include <spectile/upsampling/upsample.hpp>

@@ -17,8 +17,8 @@ namespace spectile::cli {
 namespace {
 
 constexpr const char* kName = "plan";
-constexpr Choice<PlanSampling> kSamplings[] = {{"points", PlanSampling::kPoints},
-                                               {"bands", PlanSampling::kBands}};
+constexpr Choice<BandSampling> kSamplings[] = {{"points", BandSampling::kPoints},
+                                               {"bands", BandSampling::kAverages}};
 
 struct Arguments {
   Common common;
@@ -31,7 +31,7 @@ struct Arguments {
   std::string layer;
   NonFinite nonfinite = NonFinite::kStop;
   int bounces = 1;
-  PlanSampling sample = PlanSampling::kPoints;
+  BandSampling sample = BandSampling::kPoints;
   std::optional<std::size_t> bands;
   std::optional<double> max_error;
   Observer observer = Observer::kCie1931;
@@ -47,13 +47,13 @@ struct Scene {
 
 int add_lights(const Arguments& a, PlannerOptions& out) {
   for (const std::string& text : a.lights) {
-    auto named = load_light(text);
+    auto named = find_light(text);
     if (!named) return complain(named.error());
-    for (const PlannedLight& other : out.lights) {
+    for (const NamedLight& other : out.lights) {
       if (other.name == named->name)
         return complain_usage(fmt::format("two illuminants are called {}", other.name), kName);
     }
-    out.lights.push_back({named->name, PiecewiseLinearSpectrum(std::move(named->spectrum))});
+    out.lights.push_back(*std::move(named));
   }
   return kOk;
 }
@@ -75,7 +75,7 @@ Result<std::vector<Spectrum>> default_reflectances() {
     if (!patch) return patch.error();
     out.push_back(*std::move(patch));
   }
-  const auto bands = Bands::uniform(360, 830, 5);
+  const auto bands = Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5);
   if (!bands) return bands.error();
   const auto upsampler = Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *bands);
   if (!upsampler) return upsampler.error();
@@ -131,7 +131,7 @@ int add_reflectances(const Arguments& a, Scene& out) {
   return kOk;
 }
 
-void print_errors(const PlanError& e) {
+void print_errors(const ColorError& e) {
   fmt::print(" {:>7.3f} {:>7.3f} {:>7.3f}", e.mean, e.percentile95, e.maximum);
 }
 
@@ -140,20 +140,20 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
   std::string list;
   for (const double nm : plan.wavelengths_nm) list += fmt::format(" {:.1f}", nm);
   fmt::print(" {} nm\n", list);
-  if (plan.promises.empty()) {
+  if (plan.report.errors.empty()) {
     fmt::print("  no cross-validated error, as there was no cross-validation\n");
     return;
   }
   fmt::print("  {:<40} {:>7} {:>7} {:>7}\n", "CIEDE2000, cross-validated", "mean", "95 %", "maximum");
-  for (const PlanPromise& p : plan.promises) {
-    const std::string bounces = plural(static_cast<std::uint64_t>(p.bounces), "bounce");
-    fmt::print("  {:<40}", fmt::format("under {}, {}", p.light, bounces));
-    print_errors(p.error);
+  for (const CrossValidatedError& e : plan.report.errors) {
+    const std::string bounces = plural(static_cast<std::uint64_t>(e.bounces), "bounce");
+    fmt::print("  {:<40}", fmt::format("under {}, {}", e.light, bounces));
+    print_errors(e.error);
     fmt::print("\n");
-    for (const EvenBandsPromise& even : plan.even) {
-      if (even.promise.light != p.light || even.promise.bounces != p.bounces) continue;
+    for (const EvenBandsError& even : plan.report.even_bands) {
+      if (even.light != e.light || even.bounces != e.bounces) continue;
       fmt::print("  {:<40}", "  even bands " + even.bands);
-      print_errors(even.promise.error);
+      print_errors(even.error);
       fmt::print("\n");
     }
   }

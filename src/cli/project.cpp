@@ -26,7 +26,7 @@ int run(const Arguments& a) {
   options.target = a.to;
   options.observer = a.observer;
   if (!a.illuminant.empty()) {
-    auto illuminant = load_light(a.illuminant);
+    auto illuminant = find_light(a.illuminant);
     if (!illuminant) return complain(illuminant.error());
     options.light = std::move(illuminant->spectrum);
   }

@@ -21,7 +21,7 @@ struct Arguments {
 };
 
 int run(const Arguments& a) {
-  auto illuminant = load_light(a.illuminant);
+  auto illuminant = find_light(a.illuminant);
   if (!illuminant) return complain(illuminant.error());
   RelightImageOptions options(*std::move(illuminant));
   if (const int bad = a.image.apply(options)) return bad;

@@ -100,8 +100,9 @@ Shown describe(const Arguments& a, const Spectrum& spectrum) {
     for (int nm = dense->first_nm(); nm <= dense->last_nm(); ++nm) out.wavelengths_nm.push_back(nm);
     out.values.assign(dense->values().begin(), dense->values().end());
   } else {
-    out.wavelengths_nm = tabulated_nm();
-    out.values = out.spectrum.sample(out.wavelengths_nm);
+    const MeasuredSpectrum table = *tabulated(out.spectrum);  // formulas are finite
+    out.wavelengths_nm.assign(table.wavelengths_nm().begin(), table.wavelengths_nm().end());
+    out.values.assign(table.values().begin(), table.values().end());
   }
   return out;
 }

@@ -8,7 +8,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 
 namespace spectile {
 namespace {
@@ -37,15 +37,15 @@ Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
   return inverse(rgb_to_xyz(kRec709, scaled));
 }
 
-/// A plan's weights: its sensor, times the emission of a light where there is one.
-Result<std::vector<std::array<double, 3>>> planned_weights(const Plan& plan, const MeasuredSpectrum* light,
-                                                           Observer observer) {
-  SPECTILE_TRY(check_observer(plan, observer));
-  std::vector<std::array<double, 3>> out = plan.sensor;
+/// Weights of planned bands: their sensor, times the emission of a light where there is one.
+Result<std::vector<std::array<double, 3>>> planned_weights(const BandWeights& own,
+                                                           const MeasuredSpectrum* light, Observer observer) {
+  SPECTILE_TRY(check_observer(own, observer));
+  std::vector<std::array<double, 3>> out = own.sensor;
   if (light == nullptr) return out;
-  SPECTILE_ASSIGN(const auto index, planned_light(plan, *light));
+  SPECTILE_ASSIGN(const auto index, find_band_light(own, *light));
   for (std::size_t b = 0; b < out.size(); ++b) {
-    for (double& v : out[b]) v *= plan.lights[index].emission[b];
+    for (double& v : out[b]) v *= own.lights[index].emission[b];
   }
   return out;
 }
@@ -68,20 +68,20 @@ Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpect
   const MeasuredSpectrum d65 = *illuminant("D65");
   std::array<double, 3> d65_white{};
   std::vector<std::array<double, 3>> weights;
-  if (bands.plan() != nullptr) {
+  if (bands.weights() != nullptr) {
     for (std::size_t k = 0; k < 3; ++k) d65_white[k] = product_integral(functions[k], d65, 0, 1000);
     // A plan for D65 has its white on its own.
-    if (const auto own = planned_weights(*bands.plan(), &d65, observer)) {
+    if (const auto with_d65 = planned_weights(*bands.weights(), &d65, observer)) {
       d65_white = {};
-      for (const auto& w : *own) {
+      for (const auto& w : *with_d65) {
         for (std::size_t k = 0; k < 3; ++k) d65_white[k] += w[k];
       }
     }
-    SPECTILE_ASSIGN(weights, planned_weights(*bands.plan(), light, observer));
+    SPECTILE_ASSIGN(weights, planned_weights(*bands.weights(), light, observer));
   }
   double luminance = 0;
   for (const auto& w : weights) luminance += w[1];
-  for (const Band& band : bands.plan() == nullptr ? bands.list() : std::span<const Band>()) {
+  for (const Band& band : bands.weights() == nullptr ? bands.list() : std::span<const Band>()) {
     std::array<double, 3> w{};
     for (std::size_t k = 0; k < 3; ++k) {
       w[k] = light == nullptr ? functions[k].integral(band.lower_nm, band.upper_nm)
@@ -107,7 +107,7 @@ Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpect
 }
 
 Result<Projector> Projector::of_sensor(const Bands& bands, const Spectrum* light, const Sensor& sensor) {
-  if (bands.plan() != nullptr) {
+  if (bands.weights() != nullptr) {
     return make_error(ErrorCode::kBadArgument,
                       "planned bands are weighed by their plan's own sensor, the CIE observer, alone");
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/base/errors.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 
 namespace spectile {
 

@@ -8,63 +8,64 @@ namespace spectile::plan {
 namespace {
 
 /// Steps hold white exactly but for what is not linear in it; so many samples' worth keeps that small.
-constexpr double kWhiteShare = 1e4;
+constexpr double kWhiteWeight = 1e4;
 /// A difference in XYZ of 0.01 is about one in CIEDE2000.
 constexpr double kUnitsOfXyz = 1e4;
 
-/// Sizes of weights are held down by this share of the mean metric: noise must not grow.
-constexpr double kTame = 1e-6;
+/// Ridge regularization of the weights, relative to the mean metric: noise must not grow.
+constexpr double kRegularization = 1e-6;
 
-/// Differences below this share of the unit count as squares, which have a slope of zero at none.
+/// Differences below this fraction of the unit count as squares, which have a slope of zero at none.
 constexpr double kSmall = 0.1;
 
 }  // namespace
 
 Equations::Equations(const Problem& p, Eigen::Index k, bool bands)
     : p_(&p), layout_{k, static_cast<Eigen::Index>(p.white.size()), bands} {
-  light_share_ = Vector::Ones(layout_.lights);
-  share_out();
+  light_weights_ = Vector::Ones(layout_.lights);
+  update_weights();
 }
 
-void Equations::share_out() {
-  share_ = p_->share.replicate(1, layout_.lights);
-  share_.topRows(p_->measured) *= light_share_.asDiagonal();
+void Equations::update_weights() {
+  sample_weights_ = p_->sample_weights.replicate(1, layout_.lights);
+  sample_weights_.topRows(p_->measured) *= light_weights_.asDiagonal();
 }
 
 void Equations::set_power(double power, double unit) {
   power_ = power;
   unit_ = unit;
-  share_out();
+  update_weights();
 }
 
-Matrix Equations::weights_of(const Numbers& n, Eigen::Index l) const {
+Matrix Equations::color_weights(const Parameters& n, Eigen::Index l) const {
   return n.emission.col(l).asDiagonal() * n.sensor;
 }
 
-Matrix Equations::miss_of(const Matrix& values, const Numbers& n, Eigen::Index l) const {
-  return values * weights_of(n, l) - p_->truth[static_cast<std::size_t>(l)].transpose();
+Matrix Equations::residuals(const Matrix& values, const Parameters& n, Eigen::Index l) const {
+  return values * color_weights(n, l) - p_->reference[static_cast<std::size_t>(l)].transpose();
 }
 
-/// A sample whose squared difference is q = miss' S miss adds unit^2 (q / unit^2 + small^2)^(power / 2). With
-/// f for half its derivative by q, and g for half the second, half its derivatives by the miss are 2 f S miss
-/// and 2 f S + 4 g (S miss) (S miss)'. Smooth deviations, which are no colours, count as squares.
-Equations::Bent Equations::bent(const Matrix& miss, Eigen::Index l, bool derivatives) const {
+/// A sample whose squared difference is q = residual' S residual adds unit^2 (q / unit^2 + small^2)^(power /
+/// 2). With f for half its derivative by q, and g for half the second, half its derivatives by the residual
+/// are 2 f S residual and 2 f S + 4 g (S residual) (S residual)'. Smooth deviations, which are no colours,
+/// count as squares.
+Equations::RobustLoss Equations::robust_loss(const Matrix& residual, Eigen::Index l, bool derivatives) const {
   const Matrix& squared = p_->squared_metric[static_cast<std::size_t>(l)];
   const double unit = unit_ * unit_;
-  Bent out;
+  RobustLoss out;
   if (derivatives) {
-    out.pull.resize(miss.rows(), 3);
-    out.metric.resize(miss.rows(), kPairs);
+    out.gradient.resize(residual.rows(), 3);
+    out.metric.resize(residual.rows(), kPairs);
   }
-  for (Eigen::Index i = 0; i < miss.rows(); ++i) {
-    Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     for (Eigen::Index s = 0; s < kPairs; ++s) {
       const Eigen::Index a = kFirstOf[s];
       const Eigen::Index b = kSecondOf[s];
-      pull[a] += squared(i, s) * miss(i, b);
-      if (a != b) pull[b] += squared(i, s) * miss(i, a);
+      gradient[a] += squared(i, s) * residual(i, b);
+      if (a != b) gradient[b] += squared(i, s) * residual(i, a);
     }
-    const double q = pull.dot(miss.row(i));
+    const double q = gradient.dot(residual.row(i));
     double value = q;
     double first = 1;
     double second = 0;
@@ -75,30 +76,30 @@ Equations::Bent Equations::bent(const Matrix& miss, Eigen::Index l, bool derivat
       first = power_ / 2 * power / u;
       second = (power_ - 2) * first / (u * unit);
     }
-    out.sum += share_(i, l) * value;
+    out.sum += sample_weights_(i, l) * value;
     if (!derivatives) continue;
-    out.pull.row(i) = share_(i, l) * first * pull.transpose();
+    out.gradient.row(i) = sample_weights_(i, l) * first * gradient.transpose();
     for (Eigen::Index s = 0; s < kPairs; ++s) {
-      out.metric(i, s) =
-          share_(i, l) * (first * squared(i, s) + second * pull[kFirstOf[s]] * pull[kSecondOf[s]]);
+      out.metric(i, s) = sample_weights_(i, l) *
+                         (first * squared(i, s) + second * gradient[kFirstOf[s]] * gradient[kSecondOf[s]]);
     }
   }
   return out;
 }
 
-void Equations::start_weights(Numbers& n) const {
+void Equations::initial_weights(Parameters& n) const {
   const Eigen::Index k = layout_.k;
-  const Matrix values = values_of(p_->samples, n.lambda, n.half);
+  const Matrix values = sample_values(p_->samples, n.lambda, n.half);
   std::vector<Matrix> free;
   for (Eigen::Index l = 0; l < layout_.lights; ++l) {
     const auto light = static_cast<std::size_t>(l);
     const Eigen::Matrix3d root = metrics(p_->white[light], p_->white[light])[0];
-    const Eigen::Matrix3d white = kWhiteShare * root.transpose() * root;
+    const Eigen::Matrix3d white = kWhiteWeight * root.transpose() * root;
     Matrix normal(3 * k, 3 * k);
     for (Eigen::Index s = 0; s < kPairs; ++s) {
       const Eigen::Index a = kFirstOf[s];
       const Eigen::Index b = kSecondOf[s];
-      const Vector weight = p_->squared_metric[light].col(s).cwiseProduct(share_.col(l));
+      const Vector weight = p_->squared_metric[light].col(s).cwiseProduct(sample_weights_.col(l));
       Matrix block = values.transpose() * weight.asDiagonal() * values;
       block.array() += white(a, b);
       for (Eigen::Index i = 0; i < k; ++i) {
@@ -107,13 +108,13 @@ void Equations::start_weights(Numbers& n) const {
         }
       }
     }
-    // Least squares: what pulls from a miss of all pulls to the truth.
-    const Matrix aims = values.transpose() * bent(p_->truth[light].transpose(), l, true).pull;
+    // Least squares: the gradient at a residual as large as the reference points to the reference.
+    const Matrix aims = values.transpose() * robust_loss(p_->reference[light].transpose(), l, true).gradient;
     Vector right(3 * k);
     for (Eigen::Index i = 0; i < k; ++i) {
       right.segment<3>(3 * i) = aims.row(i).transpose() + white * p_->white[light];
     }
-    // Wavelengths beside each other share one weight evenly.
+    // Neighbouring wavelengths divide one weight evenly.
     normal.diagonal().array() += 1e-8 * normal.diagonal().mean();
     const Vector solved = normal.ldlt().solve(right);
     Matrix weights(k, 3);
@@ -136,37 +137,38 @@ void Equations::start_weights(Numbers& n) const {
   }
 }
 
-double Equations::tame() const {
-  return kTame * share_.sum() / static_cast<double>(layout_.lights);
+double Equations::regularization() const {
+  return kRegularization * sample_weights_.sum() / static_cast<double>(layout_.lights);
 }
 
-double Equations::cost(const Numbers& n) const {
-  const Matrix values = values_of(p_->samples, n.lambda, n.half);
-  double sum = kWhiteShare * kUnitsOfXyz * white_miss(n, nullptr).squaredNorm();
+double Equations::cost(const Parameters& n) const {
+  const Matrix values = sample_values(p_->samples, n.lambda, n.half);
+  double sum = kWhiteWeight * kUnitsOfXyz * white_residual(n, nullptr).squaredNorm();
   for (Eigen::Index l = 0; l < layout_.lights; ++l) {
-    sum += bent(miss_of(values, n, l), l, false).sum + tame() * weights_of(n, l).squaredNorm();
+    sum += robust_loss(residuals(values, n, l), l, false).sum +
+           regularization() * color_weights(n, l).squaredNorm();
   }
   return sum;
 }
 
-void Equations::build(const Numbers& n, Matrix& normal, Vector& right) const {
+void Equations::build(const Parameters& n, Matrix& normal, Vector& right) const {
   normal = Matrix::Zero(layout_.unknowns(), layout_.unknowns());
   right = Vector::Zero(layout_.unknowns());
-  const Slopes slopes = slopes_of(p_->samples, n.lambda, n.half);
+  const Slopes slopes = sample_slopes(p_->samples, n.lambda, n.half);
   Matrix features(p_->samples.count(), (layout_.bands ? 3 : 2) * layout_.k);
   features.leftCols(2 * layout_.k) << slopes.values, slopes.by_lambda;
   if (layout_.bands) features.rightCols(layout_.k) = slopes.by_half;
   for (Eigen::Index l = 0; l < layout_.lights; ++l) add_light(n, l, features, normal, right);
   // The lower half follows from the upper.
   normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
-  add_tame(n, normal, right);
+  add_regularization(n, normal, right);
 }
 
-/// Adds a light's part, above the diagonal and on it. A sample's miss depends on an unknown of a wavelength
-/// by one of the sample's features there (its value, or its slope in where or how wide the wavelength is),
-/// times a colour: so all sums are those of products of two features, six times, for the six pairs of XYZ in
-/// the squared metric.
-void Equations::add_light(const Numbers& n, Eigen::Index l, const Matrix& features, Matrix& normal,
+/// Adds a light's part, above the diagonal and on it. A sample's residual depends on an unknown of a
+/// wavelength by one of the sample's features there (its value, or its slope in where or how wide the
+/// wavelength is), times a colour: so all sums are those of products of two features, six times, for the six
+/// pairs of XYZ in the squared metric.
+void Equations::add_light(const Parameters& n, Eigen::Index l, const Matrix& features, Matrix& normal,
                           Vector& right) const {
   struct Unknown {
     Eigen::Index at;
@@ -192,7 +194,7 @@ void Equations::add_light(const Numbers& n, Eigen::Index l, const Matrix& featur
     unknowns.push_back({at.emission(l, i), i, n.sensor.row(i).transpose()});
   }
 
-  const Bent part = bent(miss_of(features.leftCols(k), n, l), l, true);
+  const RobustLoss part = robust_loss(residuals(features.leftCols(k), n, l), l, true);
   for (Eigen::Index pair = 0; pair < kPairs; ++pair) {
     const Eigen::Index a = kFirstOf[pair];
     const Eigen::Index b = kSecondOf[pair];
@@ -210,14 +212,14 @@ void Equations::add_light(const Numbers& n, Eigen::Index l, const Matrix& featur
       }
     }
   }
-  const Matrix on_features = features.transpose() * part.pull;
+  const Matrix on_features = features.transpose() * part.gradient;
   for (const Unknown& u : unknowns) right[u.at] += on_features.row(u.feature).dot(u.color);
 }
 
-/// Adds what holds down the sizes of products of sensor weights and emission values.
-void Equations::add_tame(const Numbers& n, Matrix& normal, Vector& right) const {
+/// Adds the regularization of products of sensor weights and emission values.
+void Equations::add_regularization(const Parameters& n, Matrix& normal, Vector& right) const {
   const Layout& at = layout_;
-  const double by = tame();
+  const double by = regularization();
   for (Eigen::Index i = 0; i < at.k; ++i) {
     for (Eigen::Index l = 0; l < at.lights; ++l) {
       const double e = n.emission(i, l);
@@ -233,12 +235,12 @@ void Equations::add_tame(const Numbers& n, Matrix& normal, Vector& right) const 
   }
 }
 
-Vector Equations::white_miss(const Numbers& n, Matrix* slopes) const {
+Vector Equations::white_residual(const Parameters& n, Matrix* slopes) const {
   const Layout& at = layout_;
   Vector out(3 * at.lights);
   if (slopes != nullptr) *slopes = Matrix::Zero(3 * at.lights, at.unknowns());
   for (Eigen::Index l = 0; l < at.lights; ++l) {
-    const Eigen::Vector3d sum = weights_of(n, l).colwise().sum().transpose();
+    const Eigen::Vector3d sum = color_weights(n, l).colwise().sum().transpose();
     out.segment<3>(3 * l) = sum - p_->white[static_cast<std::size_t>(l)];
     for (Eigen::Index i = 0; slopes != nullptr && i < at.k; ++i) {
       for (Eigen::Index c = 0; c < 3; ++c) {
@@ -250,27 +252,27 @@ Vector Equations::white_miss(const Numbers& n, Matrix* slopes) const {
   return out;
 }
 
-Vector Equations::light_means(const Numbers& n) const {
+Vector Equations::light_means(const Parameters& n) const {
   Vector out(layout_.lights);
   for (Eigen::Index l = 0; l < layout_.lights; ++l) {
     const auto light = static_cast<std::size_t>(l);
-    const auto all = differences(p_->truth[light].leftCols(p_->scene),
+    const auto all = differences(p_->reference[light].leftCols(p_->scene),
                                  predict(p_->samples, n, l).leftCols(p_->scene), p_->white[light]);
     out[l] = Eigen::Map<const Vector>(all.data(), p_->scene).mean();
   }
   return out;
 }
 
-double Equations::mean_difference(const Numbers& n) const {
+double Equations::mean_difference(const Parameters& n) const {
   return light_means(n).mean();
 }
 
-void Equations::balance_lights(const Numbers& n) {
+void Equations::balance_lights(const Parameters& n) {
   const Vector means = light_means(n);
   if (!(means.mean() > 0)) return;
-  // Squared: a light's mean moves by less than its share does.
-  light_share_ = light_share_.cwiseProduct((means / means.mean()).cwiseAbs2());
-  share_out();
+  // Squared: a light's mean moves by less than its weight does.
+  light_weights_ = light_weights_.cwiseProduct((means / means.mean()).cwiseAbs2());
+  update_weights();
 }
 
 }  // namespace spectile::plan

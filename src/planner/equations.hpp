@@ -20,7 +20,8 @@ struct Layout {
   Eigen::Index unknowns() const { return (bands ? 5 : 4) * k + (lights > 1 ? lights * k : 0); }
 };
 
-/// Sums of colour differences to a power, and what they say of the unknowns. The problem must outlive it.
+/// The loss, a sum of colour differences to a power, with its gradient and Hessian. The problem must outlive
+/// it.
 class Equations {
  public:
   Equations(const Problem& p, Eigen::Index k, bool bands);
@@ -28,45 +29,46 @@ class Equations {
   /// Differences count to this power, those of `unit` as much as squared; in a problem that has grown, too.
   void set_power(double power, double unit);
   /// Lets lights whose mean stays behind the others' count more.
-  void balance_lights(const Numbers& n);
+  void balance_lights(const Parameters& n);
   /// Mean difference of reflectances and products.
-  double mean_difference(const Numbers& n) const;
+  double mean_difference(const Parameters& n) const;
 
   const Layout& layout() const noexcept { return layout_; }
   /// Weights of each light for itself by least squares; of several lights their best common sensor.
-  void start_weights(Numbers& n) const;
-  /// The sum, with the sizes of the weights and the miss of white.
-  double cost(const Numbers& n) const;
-  /// Second and first derivatives, halved, without the miss of white. Shapes: [unknowns][unknowns],
+  void initial_weights(Parameters& n) const;
+  /// The loss, with the regularization and the residual of white.
+  double cost(const Parameters& n) const;
+  /// Second and first derivatives, halved, without the residual of white. Shapes: [unknowns][unknowns],
   /// [unknowns].
-  void build(const Numbers& n, Matrix& normal, Vector& right) const;
-  /// By how much white is missed, a light after the other, and how that depends on the unknowns.
-  Vector white_miss(const Numbers& n, Matrix* slopes) const;
+  void build(const Parameters& n, Matrix& normal, Vector& right) const;
+  /// Residual of white, light by light, and its derivatives by the unknowns.
+  Vector white_residual(const Parameters& n, Matrix* slopes) const;
 
  private:
-  /// What a light's samples add to the sum, and, for each, half its first derivative by the miss, [N][3], and
-  /// half its second, [N][6].
-  struct Bent {
+  /// A light's part of the loss and, for each sample, half the gradient by the residual, [N][3], and half the
+  /// Hessian, [N][6].
+  struct RobustLoss {
     double sum = 0;
-    Matrix pull;
+    Matrix gradient;
     Matrix metric;
   };
-  Bent bent(const Matrix& miss, Eigen::Index l, bool derivatives) const;
-  Matrix weights_of(const Numbers& n, Eigen::Index l) const;
-  Matrix miss_of(const Matrix& values, const Numbers& n, Eigen::Index l) const;
-  Vector light_means(const Numbers& n) const;
-  void share_out();
-  void add_light(const Numbers& n, Eigen::Index l, const Matrix& features, Matrix& normal,
+  RobustLoss robust_loss(const Matrix& residual, Eigen::Index l, bool derivatives) const;
+  Matrix color_weights(const Parameters& n, Eigen::Index l) const;
+  Matrix residuals(const Matrix& values, const Parameters& n, Eigen::Index l) const;
+  Vector light_means(const Parameters& n) const;
+  /// Weights of samples, from those of the problem and of the lights.
+  void update_weights();
+  void add_light(const Parameters& n, Eigen::Index l, const Matrix& features, Matrix& normal,
                  Vector& right) const;
-  void add_tame(const Numbers& n, Matrix& normal, Vector& right) const;
-  double tame() const;
+  void add_regularization(const Parameters& n, Matrix& normal, Vector& right) const;
+  double regularization() const;
 
   const Problem* p_;
   Layout layout_;
   double power_ = 2;
   double unit_ = 1;
-  Matrix share_;        // [N][lights]
-  Vector light_share_;  // [lights]
+  Matrix sample_weights_;  // [N][lights]
+  Vector light_weights_;   // [lights]
 };
 
 }  // namespace spectile::plan

@@ -1,4 +1,5 @@
-// Fitting a plan: wavelengths, widths, sensor weights and emission values to the least colour differences.
+// Fitting a plan: wavelengths, widths, sensor weights and emission values such that colour differences are
+// minimal.
 #include <algorithm>
 #include <cmath>
 
@@ -19,53 +20,53 @@ constexpr double kLongestNm = 6;
 /// squares, which spend precision on those few.
 constexpr double kPower = 1.5;
 
-/// Steps by squares and by the power itself before starts are compared, of those that are left then, and of
-/// each round of the best: lights are balanced before each, and the worst products taken before the first
-/// few.
+/// Steps by squares and by the power itself before initial guesses are compared, of those that are left then,
+/// and of each round of the best: lights are balanced before each, and the worst products added before the
+/// first few.
 constexpr int kSquareSteps = 8;
 constexpr int kPowerSteps = 8;
 constexpr int kLaterSteps = 15;
 constexpr int kRounds = 6;
-constexpr int kTakingRounds = 4;
+constexpr int kProductRounds = 4;
 
 /// Where all colours are met there is still something to divide by.
 constexpr double kMinUnit = 1e-6;
 
 class Fit {
  public:
-  Fit(const Problem& p, const std::vector<double>& start, double half_nm)
-      : equations_(p, static_cast<Eigen::Index>(start.size()), half_nm > 0) {
-    now_.lambda = Eigen::Map<const Vector>(start.data(), equations_.layout().k);
-    now_.half = Vector::Constant(now_.lambda.size(), half_nm);
+  Fit(const Problem& p, const InitialGuess& guess)
+      : equations_(p, static_cast<Eigen::Index>(guess.wavelengths_nm.size()), guess.half_nm > 0) {
+    now_.lambda = Eigen::Map<const Vector>(guess.wavelengths_nm.data(), equations_.layout().k);
+    now_.half = Vector::Constant(now_.lambda.size(), guess.half_nm);
     keep_apart(now_);
-    equations_.start_weights(now_);
+    equations_.initial_weights(now_);
   }
 
   double mean_difference() const { return equations_.mean_difference(now_); }
-  void by_squares() { descend(kSquareSteps); }
-  /// Returns what is left: the same measure for all starts, if `unit` is.
+  void by_squares() { minimize(kSquareSteps); }
+  /// Returns the loss, on the same scale for all fits of one `unit`.
   double by_power(double unit, int steps) {
     equations_.set_power(kPower, unit);
-    return descend(steps);
+    return minimize(steps);
   }
-  void take(Problem& p) {
-    take_worst(p, now_);
+  void add_worst(Problem& p) {
+    add_worst_products(p, now_);
     equations_.set_power(2, 1);
   }
-  Numbers finish(Problem& p, double unit) {
+  Parameters finish(Problem& p, double unit) {
     for (int round = 0; round < kRounds; ++round) {
-      if (round < kTakingRounds) take_worst(p, now_);
+      if (round < kProductRounds) add_worst_products(p, now_);
       equations_.set_power(kPower, unit);
       equations_.balance_lights(now_);
-      descend(kLaterSteps);
+      minimize(kLaterSteps);
     }
     make_white_exact();
     return now_;
   }
 
  private:
-  /// Neighbours that come too near share what is between them.
-  void keep_apart(Numbers& n) const {
+  /// Bands that overlap divide the distance between their centres.
+  void keep_apart(Parameters& n) const {
     const bool bands = equations_.layout().bands;
     for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
       n.lambda[k] = std::clamp(n.lambda[k], kLowestNm, kHighestNm);
@@ -85,9 +86,9 @@ class Fit {
     }
   }
 
-  Numbers moved(const Vector& step) const {
+  Parameters moved(const Vector& step) const {
     const Layout& at = equations_.layout();
-    Numbers out = now_;
+    Parameters out = now_;
     for (Eigen::Index k = 0; k < at.k; ++k) {
       out.lambda[k] += std::clamp(step[at.lambda(k)], -kLongestNm, kLongestNm);
       if (at.bands) out.half[k] += std::clamp(step[at.half(k)], -kLongestNm, kLongestNm);
@@ -101,7 +102,7 @@ class Fit {
   }
 
   /// Levenberg and Marquardt's steps, with white as constraints. Returns the sum it comes to.
-  double descend(int steps) {
+  double minimize(int steps) {
     const Layout& at = equations_.layout();
     double damping = 1e-3;
     double best = equations_.cost(now_);
@@ -110,22 +111,22 @@ class Fit {
       Vector right;
       equations_.build(now_, normal, right);
       Matrix white;
-      const Vector miss = equations_.white_miss(now_, &white);
+      const Vector residual = equations_.white_residual(now_, &white);
       bool better = false;
       for (int attempt = 0; attempt < 8 && !better; ++attempt) {
-        // [normal + damping, white^T; white, 0] [step; multipliers] = [-right; -miss]
+        // [normal + damping, white^T; white, 0] [step; multipliers] = [-right; -residual]
         const Eigen::Index own = at.unknowns();
-        const Eigen::Index all = own + miss.size();
+        const Eigen::Index all = own + residual.size();
         const double scale = normal.diagonal().mean();
         Matrix system = Matrix::Zero(all, all);
         system.topLeftCorner(own, own) = normal;
         system.diagonal().head(own) += damping * normal.diagonal() + Vector::Constant(own, 1e-12 * scale);
-        system.bottomLeftCorner(miss.size(), own) = scale * white;
-        system.topRightCorner(own, miss.size()) = scale * white.transpose();
-        system.diagonal().tail(miss.size()).setConstant(-1e-9 * scale);
+        system.bottomLeftCorner(residual.size(), own) = scale * white;
+        system.topRightCorner(own, residual.size()) = scale * white.transpose();
+        system.diagonal().tail(residual.size()).setConstant(-1e-9 * scale);
         Vector aim(all);
-        aim << -right, -scale * miss;
-        const Numbers next = moved(system.partialPivLu().solve(aim).head(own));
+        aim << -right, -scale * residual;
+        const Parameters next = moved(system.partialPivLu().solve(aim).head(own));
         const double sum = equations_.cost(next);
         if (sum < best) {
           better = true;
@@ -147,37 +148,38 @@ class Fit {
   void make_white_exact() {
     for (int step = 0; step < 20; ++step) {
       Matrix slopes;
-      const Vector miss = equations_.white_miss(now_, &slopes);
-      if (miss.cwiseAbs().maxCoeff() < 1e-15) return;
-      now_ = moved(-slopes.completeOrthogonalDecomposition().solve(miss));
+      const Vector residual = equations_.white_residual(now_, &slopes);
+      if (residual.cwiseAbs().maxCoeff() < 1e-15) return;
+      now_ = moved(-slopes.completeOrthogonalDecomposition().solve(residual));
     }
   }
 
   Equations equations_;
-  Numbers now_;
+  Parameters now_;
 };
 
 }  // namespace
 
-void take_worst(Problem& problem, const Start& start) {
-  Fit one(problem, start.wavelengths_nm, start.half_nm);
-  for (int round = 0; round < kTakingRounds; ++round) {
+void add_worst_products(Problem& problem, const InitialGuess& guess) {
+  Fit one(problem, guess);
+  for (int round = 0; round < kProductRounds; ++round) {
     one.by_squares();
-    one.take(problem);
+    one.add_worst(problem);
   }
 }
 
-Numbers fit(Problem& problem, const std::vector<Start>& starts) {
+Parameters fit(Problem& problem, const std::vector<InitialGuess>& guesses) {
   std::vector<Fit> fits;
-  for (const Start& start : starts) {
-    fits.emplace_back(problem, start.wavelengths_nm, start.half_nm);
+  for (const InitialGuess& guess : guesses) {
+    fits.emplace_back(problem, guess);
     fits.back().by_squares();
   }
-  // What all are measured by.
+  // One unit for all.
   double unit = fits.front().mean_difference();
   for (const Fit& one : fits) unit = std::min(unit, one.mean_difference());
   unit = std::max(unit, kMinUnit);
-  const auto race = [&](int steps, std::size_t left) {
+  // Successive halving: the most promising half goes on, then the best.
+  const auto keep_best = [&](int steps, std::size_t left) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < fits.size(); ++i) order.emplace_back(fits[i].by_power(unit, steps), i);
     std::sort(order.begin(), order.end());
@@ -187,9 +189,8 @@ Numbers fit(Problem& problem, const std::vector<Start>& starts) {
     }
     fits = std::move(best);
   };
-  // The most promising half goes on, then the best.
-  race(kPowerSteps, (fits.size() + 1) / 2);
-  race(kLaterSteps, 1);
+  keep_best(kPowerSteps, (fits.size() + 1) / 2);
+  keep_best(kLaterSteps, 1);
   return fits.front().finish(problem, unit);
 }
 

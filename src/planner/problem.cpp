@@ -1,4 +1,4 @@
-// What a plan is fitted to.
+// The problem that a plan is fitted to.
 #include "src/planner/problem.hpp"
 
 #include <algorithm>
@@ -14,22 +14,22 @@
 namespace spectile::plan {
 namespace {
 
-/// What the dyes, and the smooth deviations, count beside the reflectances: enough that no spectrum comes out
-/// wild that no measurement has shown, little enough to leave the measured ones their precision. By
-/// cross-validation over several deals of the folds.
-constexpr Eigen::Index kDyes = 400;
-constexpr double kFirstDyeNm = 380;
-constexpr double kLastDyeNm = 780;
-constexpr double kDyeShare = 0.2;
-constexpr double kSmoothShare = 1e-2;
+/// Weights of the synthetic reflectances and of the smooth deviations relative to the scene: enough that
+/// unmeasured spectra keep small errors, little enough that measured ones keep their precision. Chosen by
+/// cross-validation over several assignments to folds.
+constexpr Eigen::Index kSyntheticCount = 400;
+constexpr double kFirstEdgeNm = 380;
+constexpr double kLastEdgeNm = 780;
+constexpr double kSyntheticWeight = 0.2;
+constexpr double kSmoothWeight = 1e-2;
 
 /// Products that a fit takes beside the reflectances themselves, for each number of bounces.
 constexpr std::size_t kProducts = 300;
-/// Products, for each number of bounces, among which the worst are looked for; and how many are taken at a
-/// time under each light: random ones alone miss the few dark saturated ones that err most.
+/// Products, for each number of bounces, among which the worst are searched; and the number added at a time
+/// under each light: random ones alone leave out the few dark saturated ones with the largest errors.
 constexpr std::size_t kPool = 5000;
 constexpr std::size_t kWorst = 20;
-/// Where smooth deviations are judged.
+/// Reflectance at which smooth deviations are evaluated.
 constexpr double kGrey = 0.2;
 
 std::array<double, 3> triple(const Eigen::Vector3d& v) {
@@ -64,18 +64,19 @@ Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances) {
   return out;
 }
 
-Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
+Result<Matrix> integrals(const NamedLight& light, Observer observer) {
   SPECTILE_ASSIGN(const auto sensor, Sensor::named(observer == Observer::kCie1931 ? "cie1931" : "cie1964"));
+  const PiecewiseLinearSpectrum spectrum(light.spectrum);
   Matrix out(kGrid, 3);
   for (Eigen::Index g = 0; g < kGrid; ++g) {
     const double nm = kFirstNm + static_cast<double>(g);
-    const double emitted = light.spectrum(nm);
+    const double emitted = spectrum(nm);
     for (Eigen::Index c = 0; c < 3; ++c) {
       const auto k = static_cast<std::size_t>(c);
       out(g, c) = sensor.factors()[k] * sensor.curves()[k](nm) * emitted;
     }
   }
-  const Eigen::Vector3d white = white_of(out);
+  const Eigen::Vector3d white = white_xyz(out);
   const double sum = white[1];
   if (!(sum > 0) || !std::isfinite(sum)) {
     return make_error(ErrorCode::kBadArgument, "the light {} has no luminance", light.name);
@@ -91,7 +92,7 @@ Result<Matrix> integrals(const PlannedLight& light, Observer observer) {
   return Matrix(out / sum);
 }
 
-Eigen::Vector3d white_of(const Matrix& integrals) {
+Eigen::Vector3d white_xyz(const Matrix& integrals) {
   return integrals.colwise().sum().transpose();
 }
 
@@ -121,21 +122,21 @@ std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& w
   return out;
 }
 
-std::vector<double> differences(const Matrix& truth, const Matrix& got, const Eigen::Vector3d& white) {
+std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white) {
   std::vector<double> out;
-  for (Eigen::Index i = 0; i < truth.cols(); ++i) {
-    const double d = ciede2000(xyz_to_lab(triple(truth.col(i)), triple(white)),
+  for (Eigen::Index i = 0; i < reference.cols(); ++i) {
+    const double d = ciede2000(xyz_to_lab(triple(reference.col(i)), triple(white)),
                                xyz_to_lab(triple(got.col(i)), triple(white)));
-    // What is no number must not pass for a small difference.
+    // NaN must not pass for a small difference.
     out.push_back(std::isnan(d) ? std::numeric_limits<double>::infinity() : d);
   }
   return out;
 }
 
-PlanError summary(std::vector<double> d) {
+ColorError summary(std::vector<double> d) {
   if (d.empty()) return {};
   std::sort(d.begin(), d.end());
-  PlanError out;
+  ColorError out;
   for (const double v : d) out.mean += v / static_cast<double>(d.size());
   out.percentile95 = d[std::min(d.size() - 1, d.size() * 95 / 100)];
   out.maximum = d.back();
@@ -144,15 +145,15 @@ PlanError summary(std::vector<double> d) {
 
 namespace {
 
-/// True colours, and the squared metric there, of the samples.
-void judge(Problem& p) {
-  p.truth.clear();
+/// Reference colours of the samples, and the squared metric at each.
+void update_reference(Problem& p) {
+  p.reference.clear();
   p.squared_metric.clear();
   const Eigen::Index smooth = p.samples.count() - p.measured;
   for (std::size_t l = 0; l < p.integrals.size(); ++l) {
-    p.truth.push_back(truth_of(p.samples, p.integrals[l]));
-    // Smooth spectra are deviations: they are judged at a middle grey.
-    Matrix colors = p.truth.back();
+    p.reference.push_back(reference_xyz(p.samples, p.integrals[l]));
+    // Smooth spectra are deviations: their metric is that of a middle grey.
+    Matrix colors = p.reference.back();
     colors.rightCols(smooth) = (kGrey * p.white[l]).replicate(1, smooth);
     const auto roots = metrics(colors, p.white[l]);
     Matrix squared(p.samples.count(), kPairs);
@@ -170,12 +171,12 @@ void judge(Problem& p) {
 Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& lights) {
   Problem out;
   out.integrals = lights;
-  for (const Matrix& light : lights) out.white.push_back(white_of(light));
-  const Matrix dyes = dye_spectra(kDyes, kFirstDyeNm, kLastDyeNm);
+  for (const Matrix& light : lights) out.white.push_back(white_xyz(light));
+  const Matrix synthetic = synthetic_reflectances(kSyntheticCount, kFirstEdgeNm, kLastEdgeNm);
   const Matrix smooth = smooth_spectra();
   const Eigen::Index given = reflectances.cols();
-  Matrix table(kGrid, given + dyes.cols() + smooth.cols());
-  table << reflectances, dyes, smooth;
+  Matrix table(kGrid, given + synthetic.cols() + smooth.cols());
+  table << reflectances, synthetic, smooth;
   out.samples = sample_set(std::move(table));
   auto& factors = out.samples.factors;
   factors.resize(static_cast<std::size_t>(given));
@@ -189,26 +190,28 @@ Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<
       add_products(out.samples, given, b, kProducts);
       add_products(out.pool, given, b, kPool);
     }
-    for (const Matrix& light : lights) out.pool_truth.push_back(truth_of(out.pool, light));
+    for (const Matrix& light : lights) out.pool_reference.push_back(reference_xyz(out.pool, light));
   }
   out.scene = out.samples.count();
   for (Eigen::Index i = given; i < out.samples.table.cols(); ++i) factors.push_back({i});
-  out.measured = out.scene + dyes.cols();
-  out.share = Vector::Ones(out.samples.count());
+  out.measured = out.scene + synthetic.cols();
+  out.sample_weights = Vector::Ones(out.samples.count());
   const auto whole = static_cast<double>(out.scene);
-  out.share.segment(out.scene, dyes.cols()).setConstant(kDyeShare * whole / static_cast<double>(dyes.cols()));
-  out.share.tail(smooth.cols()).setConstant(kSmoothShare * whole / static_cast<double>(smooth.cols()));
-  judge(out);
+  out.sample_weights.segment(out.scene, synthetic.cols())
+      .setConstant(kSyntheticWeight * whole / static_cast<double>(synthetic.cols()));
+  out.sample_weights.tail(smooth.cols())
+      .setConstant(kSmoothWeight * whole / static_cast<double>(smooth.cols()));
+  update_reference(out);
   return out;
 }
 
-void take_worst(Problem& p, const Numbers& numbers) {
+void add_worst_products(Problem& p, const Parameters& parameters) {
   const auto count = static_cast<std::size_t>(p.pool.count());
   if (count == 0) return;
   std::set<std::size_t> taken;
   for (std::size_t l = 0; l < p.integrals.size(); ++l) {
-    const auto wrong =
-        differences(p.pool_truth[l], predict(p.pool, numbers, static_cast<Eigen::Index>(l)), p.white[l]);
+    const auto wrong = differences(p.pool_reference[l],
+                                   predict(p.pool, parameters, static_cast<Eigen::Index>(l)), p.white[l]);
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(kWorst, count));
@@ -227,12 +230,13 @@ void take_worst(Problem& p, const Numbers& numbers) {
   if (more.empty()) return;
   const auto added = static_cast<Eigen::Index>(more.size());
   factors.insert(factors.begin() + p.scene, more.begin(), more.end());
-  Vector share(p.share.size() + added);
-  share << p.share.head(p.scene), Vector::Ones(added), p.share.tail(p.share.size() - p.scene);
-  p.share = std::move(share);
+  Vector weights(p.sample_weights.size() + added);
+  weights << p.sample_weights.head(p.scene), Vector::Ones(added),
+      p.sample_weights.tail(p.sample_weights.size() - p.scene);
+  p.sample_weights = std::move(weights);
   p.scene += added;
   p.measured += added;
-  judge(p);
+  update_reference(p);
 }
 
 }  // namespace spectile::plan

@@ -1,4 +1,5 @@
-// What a plan is fitted to: reflectances and lights every nanometre, true colours, and the metric at each.
+// The problem that a plan is fitted to: reflectances and lights every nanometre, true colours, and the metric
+// at each.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,8 +13,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// Wavelengths of the integration: those of the observers.
-inline constexpr int kFirstNm = 360;
-inline constexpr int kLastNm = 830;
+inline constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
+inline constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
 inline constexpr Eigen::Index kGrid = kLastNm - kFirstNm + 1;
 
 /// Spectra every nanometre, and products of them: each sample is the product of one or more of the spectra.
@@ -29,71 +30,71 @@ SampleSet sample_set(Matrix table);
 /// Adds products of `bounces` of the first `among` spectra, `most` random ones; deterministic.
 void add_products(SampleSet& set, Eigen::Index among, int bounces, std::size_t most);
 
-/// A plan's numbers while it is being fitted.
-struct Numbers {
+/// Parameters of a plan while it is being fitted.
+struct Parameters {
   Vector lambda;    ///< [K]
   Vector half;      ///< [K]: half the widths of the bands; zeros for points
   Matrix sensor;    ///< [K][3]
   Matrix emission;  ///< [K][lights]
 };
 
-/// What the samples are at wavelengths or over bands around them; products are products of those. Shapes:
-/// [samples][K].
-Matrix values_of(const SampleSet& set, const Vector& lambda, const Vector& half);
-/// The same, and how it changes as the wavelengths, and the half widths, do.
+/// Values of the samples at wavelengths, or averages over bands around them; products are products of those.
+/// Shapes: [samples][K].
+Matrix sample_values(const SampleSet& set, const Vector& lambda, const Vector& half);
+/// The same with its derivatives by the wavelengths and half widths.
 struct Slopes {
   Matrix values;
   Matrix by_lambda;
   Matrix by_half;
 };
-Slopes slopes_of(const SampleSet& set, const Vector& lambda, const Vector& half);
+Slopes sample_slopes(const SampleSet& set, const Vector& lambda, const Vector& half);
 
-/// True XYZ of the samples under a light. Shapes: integrals [kGrid][3]; [3][samples].
-Matrix truth_of(const SampleSet& set, const Matrix& integrals);
-/// XYZ of samples by a plan's numbers. Shapes: [3][samples].
-Matrix predict(const SampleSet& set, const Numbers& numbers, Eigen::Index light);
+/// Reference XYZ of the samples under a light. Shapes: integrals [kGrid][3]; [3][samples].
+Matrix reference_xyz(const SampleSet& set, const Matrix& integrals);
+/// XYZ of samples by a plan's parameters. Shapes: [3][samples].
+Matrix predict(const SampleSet& set, const Parameters& parameters, Eigen::Index light);
 
 /// Reflectances every nanometre, limited to [0, 1]. Shapes: [kGrid][reflectances]. Errors: kBadArgument for
 /// one that is no number somewhere.
 Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances);
-/// Reflectances with steep edges at any place from first_nm to last_nm, as strong dyes have, which a measured
-/// set has only a few of. Deterministic. Shapes: [kGrid][count].
-Matrix dye_spectra(Eigen::Index count, double first_nm, double last_nm);
+/// Synthetic reflectances with steep edges anywhere from first_nm to last_nm, as saturated paints have, of
+/// which a measured set has only a few. Deterministic. Shapes: [kGrid][count].
+Matrix synthetic_reflectances(Eigen::Index count, double first_nm, double last_nm);
 /// The leading directions of smooth deviations, each as large as it is likely. Shapes: [kGrid][..].
 Matrix smooth_spectra();
 
 /// Weights that turn a reflectance into XYZ under a light, Y = 1 for 1. Shapes: [kGrid][3].
 /// Errors: kBadArgument for a light without luminance, or whose white has no X or Z.
-Result<Matrix> integrals(const PlannedLight& light, Observer observer);
+Result<Matrix> integrals(const NamedLight& light, Observer observer);
 /// XYZ of a reflectance that is 1.
-Eigen::Vector3d white_of(const Matrix& integrals);
+Eigen::Vector3d white_xyz(const Matrix& integrals);
 
 /// The CIEDE2000 metric at colours: for small differences d in XYZ, |metric * d| is the colour difference.
 /// Shapes: xyz [3][colours]; one 3 x 3 for each.
 std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& white);
 /// Colour differences between columns of XYZ. Shapes: [3][colours].
-std::vector<double> differences(const Matrix& truth, const Matrix& got, const Eigen::Vector3d& white);
+std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white);
 /// Mean, 95th percentile and maximum.
-PlanError summary(std::vector<double> differences);
+ColorError summary(std::vector<double> differences);
 
-/// Products that an error is taken over.
-inline constexpr std::size_t kJudgedProducts = 2000;
-/// What errors are taken over: reflectances for one bounce, random products of them for more.
-SampleSet judged_samples(Matrix table, int bounces, std::size_t most);
+/// Products that an error is evaluated over.
+inline constexpr std::size_t kEvaluationProducts = 2000;
+/// Samples that errors are evaluated over: reflectances for one bounce, random products of them for more.
+SampleSet evaluation_samples(Matrix table, int bounces, std::size_t most);
 
-/// All of a fit: samples and what they should come to.
+/// Samples and their reference colours.
 struct Problem {
-  /// Reflectances and products of them, dyes, smooth deviations, in this order.
+  /// Reflectances and products of them, synthetic reflectances, smooth deviations, in this order.
   SampleSet samples;
   Eigen::Index scene = 0;              ///< samples that are reflectances or products
-  Eigen::Index measured = 0;           ///< those and dyes
+  Eigen::Index measured = 0;           ///< those and synthetic reflectances
   std::vector<Matrix> integrals;       ///< a light: [kGrid][3]
   std::vector<Eigen::Vector3d> white;  ///< a light
-  std::vector<Matrix> truth;           ///< a light: [3][N]
+  std::vector<Matrix> reference;       ///< a light: [3][N]
   std::vector<Matrix> squared_metric;  ///< a light: [N][6]: xx, xy, xz, yy, yz, zz
-  Vector share;                        ///< [N]: how much a sample counts, squared
-  SampleSet pool;                      ///< products that may yet be taken; none for one bounce
-  std::vector<Matrix> pool_truth;      ///< a light: [3][products]
+  Vector sample_weights;               ///< [N], of squared differences
+  SampleSet pool;                      ///< products that may be added; none for one bounce
+  std::vector<Matrix> pool_reference;  ///< a light: [3][products]
 };
 
 /// Pairs of XYZ's components in the order of `squared_metric`.
@@ -103,26 +104,26 @@ inline constexpr Eigen::Index kSecondOf[kPairs] = {0, 1, 2, 1, 2, 2};
 
 /// From reflectances (and their products) and integrals of lights.
 Problem make_problem(const Matrix& reflectances, int bounces, const std::vector<Matrix>& integrals);
-/// Takes those products of the pool into the samples that come out worst under each light.
-void take_worst(Problem& problem, const Numbers& numbers);
+/// Adds to the samples those products of the pool that have the largest errors under each light.
+void add_worst_products(Problem& problem, const Parameters& parameters);
 
-/// Wavelengths by exchange, the best of several starts; bands have half widths of `half_nm`, and dyes count
-/// `dyes` times what they do in the problem.
-std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm, double dyes,
-                                       int starts);
+/// Wavelengths by exchange, the best of several initial guesses; bands have half widths of `half_nm`, and
+/// synthetic reflectances `synthetic_weight` times their weight in the problem.
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm,
+                                       double synthetic_weight, int guesses);
 
-/// Where a fit begins.
-struct Start {
+/// Initial guess of a fit.
+struct InitialGuess {
   std::vector<double> wavelengths_nm;
   double half_nm = 0;  ///< half the widths of bands; 0 for points
 };
 
-/// The same for a quick fit from a start, again and again.
-void take_worst(Problem& problem, const Start& start);
+/// The same for a quick fit from an initial guess, in several rounds.
+void add_worst_products(Problem& problem, const InitialGuess& guess);
 
-/// Moves wavelengths (and the ends of bands) and solves for weights. Of several starts, the one that comes
-/// nearest goes on; all are of points, or all of bands. The problem's samples grow by those products that
-/// come out worst.
-Numbers fit(Problem& problem, const std::vector<Start>& starts);
+/// Moves wavelengths (and the ends of bands) and solves for weights. The initial guesses, all of points
+/// or all of bands, are compared by successive halving. The problem's samples grow by those products that
+/// have the largest errors.
+Parameters fit(Problem& problem, const std::vector<InitialGuess>& guesses);
 
 }  // namespace spectile::plan

@@ -58,7 +58,7 @@ SampleSet sample_set(Matrix table) {
 }
 
 void add_products(SampleSet& set, Eigen::Index among, int bounces, std::size_t most) {
-  // The same products every time.
+  // Deterministic.
   std::mt19937_64 random(20);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   for (std::size_t i = 0; i < most; ++i) {
     std::vector<Eigen::Index> factors;
@@ -70,7 +70,7 @@ void add_products(SampleSet& set, Eigen::Index among, int bounces, std::size_t m
   }
 }
 
-Matrix values_of(const SampleSet& set, const Vector& lambda, const Vector& half) {
+Matrix sample_values(const SampleSet& set, const Vector& lambda, const Vector& half) {
   Matrix out(set.count(), lambda.size());
   for (Eigen::Index k = 0; k < lambda.size(); ++k) {
     const Vector own = average(set, lambda[k], half[k]);
@@ -83,17 +83,17 @@ Matrix values_of(const SampleSet& set, const Vector& lambda, const Vector& half)
   return out;
 }
 
-Slopes slopes_of(const SampleSet& set, const Vector& lambda, const Vector& half) {
+Slopes sample_slopes(const SampleSet& set, const Vector& lambda, const Vector& half) {
   Slopes out;
   out.values.resize(set.count(), lambda.size());
   out.by_lambda = out.by_half = out.values;
   for (Eigen::Index k = 0; k < lambda.size(); ++k) {
     const Vector own = average(set, lambda[k], half[k]);
-    const double reach = std::max(half[k], kSlopeNm);
-    const Vector left = value_at(set, lambda[k] - reach);
-    const Vector right = value_at(set, lambda[k] + reach);
-    const Vector by_lambda = (right - left) / (2 * reach);
-    const Vector by_half = ((left + right) / 2 - own) / reach;
+    const double step = std::max(half[k], kSlopeNm);
+    const Vector left = value_at(set, lambda[k] - step);
+    const Vector right = value_at(set, lambda[k] + step);
+    const Vector by_lambda = (right - left) / (2 * step);
+    const Vector by_half = ((left + right) / 2 - own) / step;
     for (Eigen::Index i = 0; i < set.count(); ++i) {
       const auto& factors = set.factors[static_cast<std::size_t>(i)];
       double product = 1;
@@ -112,7 +112,7 @@ Slopes slopes_of(const SampleSet& set, const Vector& lambda, const Vector& half)
   return out;
 }
 
-Matrix truth_of(const SampleSet& set, const Matrix& integrals) {
+Matrix reference_xyz(const SampleSet& set, const Matrix& integrals) {
   Matrix out(3, set.count());
   for (Eigen::Index i = 0; i < set.count(); ++i) {
     const auto& factors = set.factors[static_cast<std::size_t>(i)];
@@ -124,9 +124,9 @@ Matrix truth_of(const SampleSet& set, const Matrix& integrals) {
   return out;
 }
 
-Matrix predict(const SampleSet& set, const Numbers& numbers, Eigen::Index light) {
-  const Matrix weights = numbers.emission.col(light).asDiagonal() * numbers.sensor;
-  return (values_of(set, numbers.lambda, numbers.half) * weights).transpose();
+Matrix predict(const SampleSet& set, const Parameters& parameters, Eigen::Index light) {
+  const Matrix weights = parameters.emission.col(light).asDiagonal() * parameters.sensor;
+  return (sample_values(set, parameters.lambda, parameters.half) * weights).transpose();
 }
 
 }  // namespace spectile::plan

@@ -9,34 +9,34 @@
 namespace spectile::plan {
 namespace {
 
-/// Wavelengths worth looking at: beyond them the eye sees next to nothing. Every second nanometre: the fit
+/// Candidate wavelengths: beyond them the eye sees next to nothing. Every second nanometre: the fit
 /// moves them anyway, and half the candidates are a quarter of the sums.
-constexpr int kLowestNm = 390;
+constexpr int kFirstCandidateNm = 390;
 constexpr int kStepNm = 2;
-constexpr Eigen::Index kCandidates = (720 - kLowestNm) / kStepNm + 1;
+constexpr Eigen::Index kCandidates = (720 - kFirstCandidateNm) / kStepNm + 1;
 
-double nm_of(Eigen::Index candidate) {
-  return kLowestNm + kStepNm * static_cast<double>(candidate);
+double candidate_nm(Eigen::Index candidate) {
+  return kFirstCandidateNm + kStepNm * static_cast<double>(candidate);
 }
 
-/// White counts like so many samples.
-constexpr double kWhiteShare = 1e5;
-/// Keeps the weights of wavelengths beside each other tame.
+/// Weight of white, in samples.
+constexpr double kWhiteSamples = 1e5;
+/// Regularizes the weights of neighbouring wavelengths.
 constexpr double kRidge = 1e-9;
 
 /// The normal equations of the weights of every candidate, for one light. Each candidate has three unknowns.
 class LightEquations {
  public:
   /// Shapes: samples [candidates][N].
-  LightEquations(const Problem& p, std::size_t light, const Vector& share, const Matrix& samples) {
+  LightEquations(const Problem& p, std::size_t light, const Vector& sample_weights, const Matrix& samples) {
     normal_.resize(3 * kCandidates, 3 * kCandidates);
     const Eigen::Matrix3d root = metrics(p.white[light], p.white[light])[0];
-    const Eigen::Matrix3d white = kWhiteShare * root.transpose() * root;
+    const Eigen::Matrix3d white = kWhiteSamples * root.transpose() * root;
     Matrix aims = Matrix::Zero(p.samples.count(), 3);
     for (Eigen::Index s = 0; s < kPairs; ++s) {
       const Eigen::Index a = kFirstOf[s];
       const Eigen::Index b = kSecondOf[s];
-      const Vector weight = p.squared_metric[light].col(s).cwiseProduct(share);
+      const Vector weight = p.squared_metric[light].col(s).cwiseProduct(sample_weights);
       Matrix block = samples * weight.asDiagonal() * samples.transpose();
       block.array() += white(a, b);
       for (Eigen::Index k = 0; k < kCandidates; ++k) {
@@ -45,8 +45,8 @@ class LightEquations {
           normal_(3 * k + b, 3 * l + a) = block(k, l);
         }
       }
-      aims.col(a) += weight.cwiseProduct(p.truth[light].row(b).transpose());
-      if (a != b) aims.col(b) += weight.cwiseProduct(p.truth[light].row(a).transpose());
+      aims.col(a) += weight.cwiseProduct(p.reference[light].row(b).transpose());
+      if (a != b) aims.col(b) += weight.cwiseProduct(p.reference[light].row(a).transpose());
     }
     const Matrix right = samples * aims;
     right_.resize(3 * kCandidates);
@@ -96,8 +96,8 @@ class LightEquations {
 };
 
 /// The wavelength that helps most beside those known, and what all then take from the sum of squares.
-std::pair<Eigen::Index, double> best_beside(const std::vector<LightEquations>& lights,
-                                            const std::vector<Eigen::Index>& known) {
+std::pair<Eigen::Index, double> best_addition(const std::vector<LightEquations>& lights,
+                                              const std::vector<Eigen::Index>& known) {
   Vector gains = Vector::Zero(kCandidates);
   double taken = 0;
   for (const LightEquations& light : lights) taken += light.add_gains(known, gains);
@@ -116,7 +116,7 @@ double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const Eigen::Index before = chosen.front();
       chosen.erase(chosen.begin());
-      const auto [best, sum] = best_beside(lights, chosen);
+      const auto [best, sum] = best_addition(lights, chosen);
       chosen.push_back(best);
       moved = moved || best != before;
       taken = sum;
@@ -128,31 +128,31 @@ double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen
 
 }  // namespace
 
-std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm, double dyes,
-                                       int starts) {
+std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count, double half_nm,
+                                       double synthetic_weight, int guesses) {
   Vector candidates(kCandidates);
-  for (Eigen::Index c = 0; c < kCandidates; ++c) candidates[c] = nm_of(c);
+  for (Eigen::Index c = 0; c < kCandidates; ++c) candidates[c] = candidate_nm(c);
   const Matrix samples =
-      values_of(problem.samples, candidates, Vector::Constant(kCandidates, half_nm)).transpose();
-  Vector share = problem.share;
-  share.segment(problem.scene, problem.measured - problem.scene) *= dyes;
+      sample_values(problem.samples, candidates, Vector::Constant(kCandidates, half_nm)).transpose();
+  Vector sample_weights = problem.sample_weights;
+  sample_weights.segment(problem.scene, problem.measured - problem.scene) *= synthetic_weight;
   std::vector<LightEquations> lights;
   for (std::size_t l = 0; l < problem.white.size(); ++l) {
-    lights.emplace_back(problem, l, share, samples);
+    lights.emplace_back(problem, l, sample_weights, samples);
   }
   std::vector<Eigen::Index> best;
   double most = -1;
-  // The same starts every time.
+  // Deterministic.
   std::mt19937_64 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
-  for (int start = 0; start < starts; ++start) {
+  for (int guess = 0; guess < guesses; ++guess) {
     std::vector<Eigen::Index> chosen;
-    if (start == 0) {
-      while (chosen.size() < count) chosen.push_back(best_beside(lights, chosen).first);
+    if (guess == 0) {
+      while (chosen.size() < count) chosen.push_back(best_addition(lights, chosen).first);
     } else {
-      // Spread evenly, each somewhere within its share.
-      const auto share_of = static_cast<std::uint64_t>(kCandidates) / count;
+      // Spread evenly, each anywhere within its interval.
+      const auto interval = static_cast<std::uint64_t>(kCandidates) / count;
       for (std::uint64_t k = 0; k < count; ++k) {
-        chosen.push_back(static_cast<Eigen::Index>(k * share_of + random() % share_of));
+        chosen.push_back(static_cast<Eigen::Index>(k * interval + random() % interval));
       }
     }
     const double taken = exchange_all(lights, chosen);
@@ -163,7 +163,7 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
   }
   std::vector<double> out;
   out.reserve(best.size());
-  for (const Eigen::Index c : best) out.push_back(nm_of(c));
+  for (const Eigen::Index c : best) out.push_back(candidate_nm(c));
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -13,7 +13,7 @@ double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11U) * 0x1p-53;
 }
 
-/// Nearly normal, of variance 1: the sum of twelve uniform numbers.
+/// Nearly normal, of variance 1: the sum of twelve uniform parameters.
 double normal(std::mt19937_64& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += uniform(random);
@@ -27,7 +27,7 @@ double edge(double x) {
 
 }  // namespace
 
-Matrix dye_spectra(Eigen::Index count, double first_nm, double last_nm) {
+Matrix synthetic_reflectances(Eigen::Index count, double first_nm, double last_nm) {
   // Up to four edges, 8 to 30 nm wide, on a logistic scale, between a gloss of 1.5 % and 96.5 %: chosen to
   // look like measured saturated paints, of which a set of some two hundred has a handful.
   constexpr double kMeanLogit = -1.2;

@@ -16,7 +16,7 @@ Vector3 normalized(const Vector3& v) noexcept {
     return {kNan, kNan, kNan};
   }
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  // By a power of two near the largest component: exact, and neither the square nor the quotient overflows.
+  // By a power of two near the largest component: exact, and neither the square nor the division overflows.
   const int power = std::ilogb(largest);
   const Vector3 scaled = {std::scalbn(v.x, -power), std::scalbn(v.y, -power), std::scalbn(v.z, -power)};
   return scaled / std::sqrt(dot(scaled, scaled));

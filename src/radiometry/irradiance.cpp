@@ -20,7 +20,7 @@ bool finite(const Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-double largest_of(const Vector3& v) {
+double largest_magnitude(const Vector3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
@@ -82,7 +82,7 @@ Result<SeenDisk> seen(const DiskEmitter& emitter, const Receiver& receiver) {
     return make_error(ErrorCode::kBadArgument, "the disk's radius is {} m; it must be finite and not below 0",
                       emitter.radius_m);
   }
-  const double scale = std::max(largest_of(centre), emitter.radius_m);
+  const double scale = std::max(largest_magnitude(centre), emitter.radius_m);
   if (scale == 0) return SeenDisk{receiver_normal, {}, normal, 0};
   return SeenDisk{receiver_normal, centre / scale, normal, emitter.radius_m / scale};
 }
@@ -93,8 +93,8 @@ Result<SeenQuad> seen(const QuadEmitter& emitter, const Receiver& receiver) {
   if (!finite(corner)) return not_finite("the parallelogram's corner, from the receiver,", corner);
   if (!finite(emitter.edge_u_m)) return not_finite("the parallelogram's first edge", emitter.edge_u_m);
   if (!finite(emitter.edge_v_m)) return not_finite("the parallelogram's second edge", emitter.edge_v_m);
-  const double scale =
-      std::max({largest_of(corner), largest_of(emitter.edge_u_m), largest_of(emitter.edge_v_m)});
+  const double scale = std::max(
+      {largest_magnitude(corner), largest_magnitude(emitter.edge_u_m), largest_magnitude(emitter.edge_v_m)});
   if (scale == 0) return SeenQuad{receiver_normal, {}, {}, {}, {}};
   const Vector3 u = emitter.edge_u_m / scale;
   const Vector3 v = emitter.edge_v_m / scale;
@@ -102,7 +102,7 @@ Result<SeenQuad> seen(const QuadEmitter& emitter, const Receiver& receiver) {
   return SeenQuad{receiver_normal, corner / scale, u, v, normalized(cross(normalized(u), normalized(v)))};
 }
 
-/// What a small area at `point` contributes for each unit of its area; the emitter's cosine is distance / d.
+/// Contribution of a small area at `point` per unit of its area; the emitter's cosine is distance / d.
 double contribution(const Vector3& point, const Vector3& receiver_normal, double distance) {
   const double square = dot(point, point);
   return std::max(0.0, dot(point, receiver_normal)) * distance / (square * square);
@@ -243,7 +243,7 @@ Result<SolidAngle> projected_solid_angle(std::span<const Vector3> polygon_m, con
   for (const Vector3& corner : polygon_m) {
     polygon.push_back(corner - receiver.position_m);
     if (!finite(polygon.back())) return not_finite("a corner, from the receiver,", polygon.back());
-    scale = std::max(scale, largest_of(polygon.back()));
+    scale = std::max(scale, largest_magnitude(polygon.back()));
   }
   if (scale == 0) return SolidAngle(0);
   for (Vector3& corner : polygon) corner = corner / scale;

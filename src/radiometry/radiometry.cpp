@@ -20,27 +20,27 @@ constexpr Length metres(double lambda_nm) {
   return Length(lambda_nm * 1e-9);
 }
 
-/// Where a distribution's radiation is: see luminous_efficacy().
+/// Range of a distribution's radiation: see luminous_efficacy().
 struct Range {
   double first_nm = kFirstVisibleNm;
   double last_nm = kLastVisibleNm;
 };
-Range range_of(const ConstantSpectrum& /*spectrum*/) {
+Range radiation_range(const ConstantSpectrum& /*spectrum*/) {
   return {};
 }
-Range range_of(const UpsampledSpectrum& /*spectrum*/) {
+Range radiation_range(const UpsampledSpectrum& /*spectrum*/) {
   return {};
 }
-Range range_of(const BlackbodySpectrum& /*spectrum*/) {
+Range radiation_range(const BlackbodySpectrum& /*spectrum*/) {
   return {0, kInfinity};
 }
-Range range_of(const GaussianSumSpectrum& /*spectrum*/) {
+Range radiation_range(const GaussianSumSpectrum& /*spectrum*/) {
   return {0, kInfinity};
 }
-Range range_of(const PiecewiseLinearSpectrum& spectrum) {
+Range radiation_range(const PiecewiseLinearSpectrum& spectrum) {
   return {spectrum.wavelengths_nm().front(), spectrum.wavelengths_nm().back()};
 }
-Range range_of(const DenselySampledSpectrum& spectrum) {
+Range radiation_range(const DenselySampledSpectrum& spectrum) {
   return {static_cast<double>(spectrum.first_nm()), static_cast<double>(spectrum.last_nm())};
 }
 
@@ -110,7 +110,7 @@ LuminousEfficacy luminous_efficacy_at(double lambda_nm) noexcept {
 }
 
 Result<LuminousEfficacy> luminous_efficacy(const Spectrum& spectrum) {
-  const Range range = std::visit([](const auto& s) { return range_of(s); }, spectrum.kind());
+  const Range range = std::visit([](const auto& s) { return radiation_range(s); }, spectrum.kind());
   return luminous_efficacy(spectrum, range.first_nm, range.last_nm);
 }
 

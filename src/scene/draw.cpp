@@ -50,8 +50,8 @@ float placed(int pixel, double offset) {
 
 /// Radiance of the chunk's spectra at wavelengths. `tables`: pairs of a value and the difference to the next,
 /// kIntervals of them a spectrum.
-void look_up(float* radiance, const float* lambda_nm, const Chunk& chunk, const float* tables,
-             std::size_t n) {
+void interpolate(float* radiance, const float* lambda_nm, const Chunk& chunk, const float* tables,
+                 std::size_t n) {
   constexpr auto kIntervals = static_cast<std::int32_t>(kLastVisibleNm - kFirstVisibleNm);
   for (std::size_t i = 0; i < n; ++i) {
     // A wavelength may be rounded out of the range that it is drawn from.
@@ -133,7 +133,7 @@ BandSamples SceneBatch::band_samples() const noexcept {
 
 Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling& sampling,
                                    std::uint64_t first, std::uint64_t count, SceneBatch& batch) const {
-  const PixelWindow window = scene::window_of(film);
+  const PixelWindow window = scene::filter_window(film);
   SPECTILE_TRY(check(film, sampling, window, first, count));
   const bool bands = film.input == FilmInput::kBands;
   const std::size_t rows = bands ? film.bands.count() : sampling.wavelengths;
@@ -190,7 +190,7 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
         batch.x_.data()[done + i] = placed(walk.x(), x);
         batch.y_.data()[done + i] = placed(walk.y(), y);
       } else {
-        // The film is told the pixel only; what its filter reaches is seen from the centre.
+        // The film is told the pixel only; the area of its filter is seen from the centre.
         const FilterSample sample = film.filter.sample(x, y);
         x = 0.5 + sample.dx;
         y = 0.5 + sample.dy;
@@ -222,7 +222,7 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
       std::copy_n(lambda, n, batch.lambda_.data() + at);
       std::copy_n(density, n, batch.density_.data() + at);
       float* const radiance = batch.radiance_.data() + at;
-      look_up(radiance, lambda, chunk, parts_->tables.data(), n);
+      interpolate(radiance, lambda, chunk, parts_->tables.data(), n);
     }
   }
   batch.size_ = total;

@@ -6,8 +6,8 @@
 namespace spectile::scene {
 namespace {
 
-std::vector<double> edges_of(const std::vector<Rectangle>& rectangles, double Rectangle::*low,
-                             double Rectangle::*high) {
+std::vector<double> sorted_edges(const std::vector<Rectangle>& rectangles, double Rectangle::*low,
+                                 double Rectangle::*high) {
   std::vector<double> out;
   for (const Rectangle& r : rectangles) {
     out.push_back(r.*low);
@@ -36,8 +36,8 @@ Edges::Edges(std::vector<double> at) : at_(std::move(at)) {
 Layout::Layout(Picture picture)
     : spectra_(std::move(picture.spectra)),
       rectangles_{Rectangle{}},
-      x_(edges_of(picture.rectangles, &Rectangle::x0, &Rectangle::x1)),
-      y_(edges_of(picture.rectangles, &Rectangle::y0, &Rectangle::y1)),
+      x_(sorted_edges(picture.rectangles, &Rectangle::x0, &Rectangle::x1)),
+      y_(sorted_edges(picture.rectangles, &Rectangle::y0, &Rectangle::y1)),
       cells_(x_.intervals() * y_.intervals()) {
   rectangles_.insert(rectangles_.end(), picture.rectangles.begin(), picture.rectangles.end());
   for (std::size_t r = 1; r < rectangles_.size(); ++r) {

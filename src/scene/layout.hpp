@@ -54,7 +54,7 @@ class Edges {
   std::array<std::uint32_t, kGuides> guide_{};
 };
 
-/// What can be seen of a picture: each cell of the grid that all edges make belongs to one rectangle.
+/// Visible parts of a picture: each cell of the grid that all edges make belongs to one rectangle.
 class Layout {
  public:
   explicit Layout(Picture picture);

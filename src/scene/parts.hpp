@@ -1,4 +1,4 @@
-// What a procedural scene is made of.
+// Parts of a procedural scene.
 #pragma once
 
 #include <spectile/scene/procedural_scene.hpp>

@@ -1,4 +1,4 @@
-// What there is to see in the procedural scenes.
+// Contents of the procedural scenes.
 #include <array>
 #include <cmath>
 #include <spectile/color/sensor.hpp>

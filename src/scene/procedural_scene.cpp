@@ -9,7 +9,7 @@ namespace {
 
 using Triple = std::array<double, 3>;
 
-Triple sum_of(const std::vector<double>& amounts, const std::vector<Triple>& responses) {
+Triple weighted_sum(const std::vector<double>& amounts, const std::vector<Triple>& responses) {
   Triple out{};
   for (std::size_t s = 0; s < amounts.size(); ++s) {
     for (std::size_t c = 0; c < 3; ++c) out[c] += amounts[s] * responses[s][c];
@@ -51,13 +51,13 @@ double ProceduralScene::radiance(double x, double y, double lambda_nm, int width
 }
 
 std::array<double, 3> ProceduralScene::xyz(const FilmOptions& film, int x, int y) const {
-  return sum_of(scene::amounts(parts_->layout, film, x, y), *parts_->responses.xyz(film));
+  return weighted_sum(scene::amounts(parts_->layout, film, x, y), *parts_->responses.xyz(film));
 }
 
 std::array<double, 3> ProceduralScene::sensor(const FilmOptions& film, std::size_t sensor, int x,
                                               int y) const {
   if (sensor >= film.sensors.size()) return {};
-  return sum_of(scene::amounts(parts_->layout, film, x, y), *parts_->responses.sensor(film, sensor));
+  return weighted_sum(scene::amounts(parts_->layout, film, x, y), *parts_->responses.sensor(film, sensor));
 }
 
 std::vector<double> ProceduralScene::spectrum(const FilmOptions& film, int x, int y) const {

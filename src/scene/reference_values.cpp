@@ -33,8 +33,8 @@ struct Axis {
 };
 
 template <class Profile>
-Moments moments_of(const Edges& edges, const Axis& axis, const std::vector<double>& pieces,
-                   const Profile& profile) {
+Moments moments(const Edges& edges, const Axis& axis, const std::vector<double>& pieces,
+                const Profile& profile) {
   const double low = std::max(axis.low, axis.centre - pieces.back());
   const double high = std::min(axis.high, axis.centre + pieces.back());
   std::vector<double> cuts = {low, high};
@@ -66,7 +66,7 @@ Moments moments_of(const Edges& edges, const Axis& axis, const std::vector<doubl
   return out;
 }
 
-/// Whether two spectra are one table in memory, or the same formula. Others count as different.
+/// True if two spectra are one table in memory, or the same formula. Others count as different.
 bool same(const Spectrum& a, const Spectrum& b) {
   if (const auto* p = std::get_if<DenselySampledSpectrum>(&a.kind())) {
     const auto* q = std::get_if<DenselySampledSpectrum>(&b.kind());
@@ -95,7 +95,7 @@ const Sensor& observer_sensor(Observer observer) {
 
 }  // namespace
 
-PixelWindow window_of(const FilmOptions& film) {
+PixelWindow filter_window(const FilmOptions& film) {
   return film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
 }
 
@@ -104,17 +104,16 @@ std::vector<double> amounts(const Layout& layout, const FilmOptions& film, int x
   Axis across{.centre = x + 0.5, .size = film.width};
   Axis down{.centre = y + 0.5, .size = film.height};
   if (film.placement == SamplePlacement::kSplat) {
-    const PixelWindow window = window_of(film);
+    const PixelWindow window = filter_window(film);
     across.low = window.x0;
     across.high = window.x1;
     down.low = window.y0;
     down.high = window.y1;
   }
-  const Moments columns =
-      moments_of(layout.x(), across, FilterAccess::smooth_pieces(filter, filter.radius_x()),
-                 [&](double d) { return filter.along_x(d); });
-  const Moments rows = moments_of(layout.y(), down, FilterAccess::smooth_pieces(filter, filter.radius_y()),
-                                  [&](double d) { return filter.along_y(d); });
+  const Moments columns = moments(layout.x(), across, FilterAccess::smooth_pieces(filter, filter.radius_x()),
+                                  [&](double d) { return filter.along_x(d); });
+  const Moments rows = moments(layout.y(), down, FilterAccess::smooth_pieces(filter, filter.radius_y()),
+                               [&](double d) { return filter.along_y(d); });
   std::vector<double> out(layout.spectra().size());
   const double whole = columns.whole * rows.whole;
   if (whole == 0) return out;
@@ -129,14 +128,14 @@ std::vector<double> amounts(const Layout& layout, const FilmOptions& film, int x
   return out;
 }
 
-bool Responses::ColourKey::operator==(const ColourKey& other) const {
+bool Responses::ColorKey::operator==(const ColorKey& other) const {
   for (std::size_t c = 0; c < 3; ++c) {
     if (!same(sensor.curves()[c], other.sensor.curves()[c])) return false;
   }
   return sensor.factors() == other.sensor.factors() && observer == other.observer && bands == other.bands;
 }
 
-std::vector<Responses::Triple> Responses::computed(const ColourKey& key) {
+std::vector<Responses::Triple> Responses::computed(const ColorKey& key) {
   std::vector<Triple> out;
   if (!key.bands) {
     for (const auto& spectrum : layout_.spectra()) out.push_back(key.sensor.response(spectrum));
@@ -159,22 +158,22 @@ std::vector<Responses::Triple> Responses::computed(const ColourKey& key) {
   return out;
 }
 
-std::shared_ptr<const std::vector<Responses::Triple>> Responses::colours(const ColourKey& key) {
-  return colours_.get(key, [&] { return computed(key); });
+std::shared_ptr<const std::vector<Responses::Triple>> Responses::colors(const ColorKey& key) {
+  return colors_.get(key, [&] { return computed(key); });
 }
 
 std::shared_ptr<const std::vector<Responses::Triple>> Responses::xyz(const FilmOptions& film) {
   const Observer observer = film.xyz.value_or(Observer::kCie1931);
-  ColourKey key{observer_sensor(observer), observer, {}};
+  ColorKey key{observer_sensor(observer), observer, {}};
   if (film.input == FilmInput::kBands) key.bands = film.bands;
-  return colours(key);
+  return colors(key);
 }
 
 std::shared_ptr<const std::vector<Responses::Triple>> Responses::sensor(const FilmOptions& film,
                                                                         std::size_t which) {
-  ColourKey key{film.sensors[which].sensor, {}, {}};
+  ColorKey key{film.sensors[which].sensor, {}, {}};
   if (film.input == FilmInput::kBands) key.bands = film.bands;
-  return colours(key);
+  return colors(key);
 }
 
 std::shared_ptr<const Averages> Responses::averages(const Bands& bands, bool drawn) {

@@ -1,4 +1,5 @@
-// Closed forms of procedural scenes: how much of each spectrum a pixel sees, and what the spectra come to.
+// Closed forms of procedural scenes: the weight of each spectrum in a pixel, and the integrals of the
+// spectra.
 #pragma once
 
 #include <array>
@@ -16,13 +17,13 @@
 namespace spectile::scene {
 
 /// The pixels that a film keeps.
-PixelWindow window_of(const FilmOptions& film);
+PixelWindow filter_window(const FilmOptions& film);
 
 /// The mean factor of each spectrum in a pixel under the film's filter. Where samples are splatted they exist
 /// in the window only, and the filter is cut off there.
 std::vector<double> amounts(const Layout& layout, const FilmOptions& film, int x, int y);
 
-/// The last few results, each for a key that is dear to compute from.
+/// The last few results, each for a key that is expensive to compute from.
 template <class Key, class Value>
 class Recent {
  public:
@@ -49,7 +50,7 @@ struct Averages {
   std::vector<float> rounded;
 };
 
-/// What the spectra of a scene come to, computed when first asked for.
+/// Integrals of the spectra of a scene, computed on first use.
 class Responses {
  public:
   using Triple = std::array<double, 3>;
@@ -65,21 +66,21 @@ class Responses {
   std::shared_ptr<const Averages> averages(const Bands& bands, bool drawn);
 
  private:
-  struct ColourKey {
+  struct ColorKey {
     Sensor sensor;
     std::optional<Observer> observer;
     std::optional<Bands> bands;
-    bool operator==(const ColourKey& other) const;
+    bool operator==(const ColorKey& other) const;
   };
   struct BandKey {
     Bands bands;
     bool drawn;
     bool operator==(const BandKey&) const = default;
   };
-  std::shared_ptr<const std::vector<Triple>> colours(const ColourKey& key);
-  std::vector<Triple> computed(const ColourKey& key);
+  std::shared_ptr<const std::vector<Triple>> colors(const ColorKey& key);
+  std::vector<Triple> computed(const ColorKey& key);
   const Layout& layout_;
-  Recent<ColourKey, std::vector<Triple>> colours_;
+  Recent<ColorKey, std::vector<Triple>> colors_;
   Recent<BandKey, Averages> averages_;
 };
 

@@ -1,4 +1,4 @@
-// Simulation: a scene drawn into a film step by step, and how far it is from the truth.
+// Simulation: a scene drawn into a film step by step, and its error against the reference values.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kSamplesAStep = 16384;
 
 /// How a run is cut into steps: passes over the pixels with a part of their samples each.
-struct Steps {
+struct StepPlan {
   std::uint64_t samples = 0;  ///< a pixel, of this shard
   std::uint64_t passes = 1;
   std::uint64_t pixels = 0;
@@ -24,8 +24,8 @@ struct Steps {
   std::uint64_t all() const { return samples == 0 ? 0 : passes * a_pass(); }
 };
 
-Steps steps_of(const FilmOptions& film, const SceneSampling& s) {
-  Steps out;
+StepPlan divide_steps(const FilmOptions& film, const SceneSampling& s) {
+  StepPlan out;
   if (s.shards == 0 || s.shard >= s.shards) return out;
   out.samples = s.samples_per_pixel > s.shard ? (s.samples_per_pixel - s.shard - 1) / s.shards + 1 : 0;
   const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
@@ -37,7 +37,7 @@ Steps steps_of(const FilmOptions& film, const SceneSampling& s) {
 }
 
 Result<void> run_step(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
-                      const Steps& steps, std::uint64_t step) {
+                      const StepPlan& steps, std::uint64_t step) {
   const FilmOptions& o = film.options();
   const bool wavelengths = o.input == FilmInput::kWavelengths;
   // A pass is a shard of the shard.
@@ -57,12 +57,12 @@ Result<void> run_step(const ProceduralScene& scene, const SceneSampling& samplin
 }  // namespace
 
 std::uint64_t simulation_steps(const FilmOptions& film, const SceneSampling& sampling) {
-  return steps_of(film, sampling).all();
+  return divide_steps(film, sampling).all();
 }
 
 Result<void> simulate(const ProceduralScene& scene, const SceneSampling& sampling, Film& film,
                       std::uint64_t first, std::uint64_t count, const Execution& execution) {
-  const Steps steps = steps_of(film.options(), sampling);
+  const StepPlan steps = divide_steps(film.options(), sampling);
   if (sampling.shards == 0 || sampling.shard >= sampling.shards) {
     return make_error(ErrorCode::kBadArgument, "there is no shard {} of {}", sampling.shard, sampling.shards);
   }
@@ -133,19 +133,19 @@ Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& fi
           double line_all = 0;
           const int y = w.y0 + static_cast<int>(row);
           for (int x = w.x0; x < w.x1; ++x) {
-            const auto truth = scene.xyz(film.options(), x, y);
-            line.mean_luminance += truth[1];
+            const auto reference = scene.xyz(film.options(), x, y);
+            line.mean_luminance += reference[1];
             for (std::size_t c = 0; c < 3; ++c) {
-              const double error = static_cast<double>(xyz.at(c, x, y)) - truth[c];
+              const double error = static_cast<double>(xyz.at(c, x, y)) - reference[c];
               line_all += error * error;
               if (c == 1) line_y += error * error;
             }
             const auto got = static_cast<double>(xyz.at(1, x, y));
-            if (truth[1] != 0) {
-              line.largest_relative = std::max(line.largest_relative, std::abs(got / truth[1] - 1));
+            if (reference[1] != 0) {
+              line.largest_relative = std::max(line.largest_relative, std::abs(got / reference[1] - 1));
             }
-            line.black_pixels += truth[1] == 0 && got == 0 ? 1 : 0;
-            line.wrong_black += (truth[1] == 0) != (got == 0) ? 1 : 0;
+            line.black_pixels += reference[1] == 0 && got == 0 ? 1 : 0;
+            line.wrong_black += (reference[1] == 0) != (got == 0) ? 1 : 0;
           }
           const std::scoped_lock lock(mutex);
           out.mean_luminance += line.mean_luminance;

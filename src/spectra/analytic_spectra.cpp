@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <spectile/radiometry/radiometry.hpp>
+#include <spectile/constants.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
 #include "src/base/errors.hpp"

@@ -7,7 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/data/tables.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 
 namespace spectile {
 

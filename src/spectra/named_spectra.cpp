@@ -27,7 +27,7 @@ struct Description {
   const char* about;
 };
 
-// What each is, as CIE 015:2018 describes it.
+// Descriptions after CIE 015:2018.
 constexpr Description kIlluminants[] = {{"A", "incandescent lamp, Planckian, 2856 K"},
                                         {"C", "average daylight of 1931, 6774 K"},
                                         {"D50", "daylight, 5003 K"},
@@ -135,7 +135,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-Result<Spectrum> table_of(const Entry& e) {
+Result<Spectrum> named_table(const Entry& e) {
   if (e.step_nm == 1) {
     SPECTILE_ASSIGN(auto dense, DenselySampledSpectrum::from_values(static_cast<int>(e.first_nm),
                                                                     {e.values.begin(), e.values.end()}));
@@ -259,7 +259,7 @@ Result<Spectrum> named_spectrum(std::string_view name) {
   const std::string wanted = lower(name);
   for (const Entry& e : entries()) {
     if (wanted == lower(e.info.name) || (!e.info.alias.empty() && wanted == lower(e.info.alias)))
-      return table_of(e);
+      return named_table(e);
   }
   return unknown(name);
 }

@@ -1,7 +1,7 @@
 // Spectrum: any distribution behind one value type, and products of two.
 #include <algorithm>
 #include <cmath>
-#include <spectile/radiometry/radiometry.hpp>
+#include <spectile/constants.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
 #include "src/spectra/quadrature.hpp"
@@ -39,7 +39,7 @@ void add_breaks(const UpsampledSpectrum& s, std::vector<double>& breaks) {
   breaks.push_back(s.last_nm());
 }
 
-/// Whether a distribution is linear between its breaks.
+/// True if a distribution is linear between its breaks.
 bool is_linear(const Spectrum::Kind& kind) {
   if (const auto* upsampled = std::get_if<UpsampledSpectrum>(&kind)) return !upsampled->is_sigmoid();
   return !std::holds_alternative<BlackbodySpectrum>(kind) &&
@@ -49,7 +49,7 @@ bool is_linear(const Spectrum::Kind& kind) {
 /// Gauss's rule of two points inside [a, b], so that steps at the ends do not count: exact up to the third
 /// power, the product of three straight lines.
 template <class Function>
-double of_cubic(const Function& f, double a, double b) {
+double two_points(const Function& f, double a, double b) {
   const double offset = 0.5 * (b - a) / std::sqrt(3.0);
   const double middle = 0.5 * (a + b);
   return 0.5 * (b - a) * (f(middle - offset) + f(middle + offset));
@@ -68,7 +68,7 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
   }
   breaks.push_back(last_nm);
   std::sort(breaks.begin(), breaks.end());
-  const auto sum_of = [&](const auto& piece) {
+  const auto sum_pieces = [&](const auto& piece) {
     double sum = 0;
     for (std::size_t i = 1; i < breaks.size(); ++i) {
       const double from = std::clamp(breaks[i - 1], first_nm, last_nm);
@@ -77,13 +77,13 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
     }
     return sum;
   };
-  if (exact) return sum_of([&](double from, double to) { return of_cubic(product, from, to); });
+  if (exact) return sum_pieces([&](double from, double to) { return two_points(product, from, to); });
   // Pieces that hold next to nothing, a lobe's tails, need no precision of their own.
-  const double size = sum_of([&](double from, double to) {
+  const double size = sum_pieces([&](double from, double to) {
     return quadrature::ten_points([&](double nm) { return std::abs(product(nm)); }, from, to);
   });
   const double negligible = 1e-12 * size / static_cast<double>(breaks.size());
-  return sum_of(
+  return sum_pieces(
       [&](double from, double to) { return quadrature::adaptive(product, from, to, 1e-10, negligible); });
 }
 

@@ -1,4 +1,4 @@
-// UpsampledSpectrum: what an RGB colour became, at any wavelength.
+// UpsampledSpectrum: the spectrum of an RGB colour at any wavelength.
 #include <algorithm>
 #include <cmath>
 #include <spectile/spectra/spectrum.hpp>
@@ -21,43 +21,53 @@ double sigmoid(const std::array<float, 3>& c, double lambda_nm) {
 
 }  // namespace
 
+Result<UpsampledSpectrum> UpsampledSpectrum::create(Parts parts) {
+  if (!parts.sigmoid && !parts.table) {
+    return make_error(ErrorCode::kBadArgument, "an upsampled spectrum takes a sigmoid or a table");
+  }
+  return UpsampledSpectrum(std::move(parts));
+}
+
 double UpsampledSpectrum::operator()(double lambda_nm) const noexcept {
   if (std::isnan(lambda_nm)) return lambda_nm;
-  const double held = std::clamp(lambda_nm, first_nm_, last_nm_);
-  if (!sigmoid_) return table_->at(held);
-  const double white = table_ ? table_->at(held) : 1.0;
-  return sigmoid(c_, held) * white * static_cast<double>(scale_);
+  const double held = std::clamp(lambda_nm, parts_.first_nm, parts_.last_nm);
+  if (!parts_.sigmoid) return parts_.table->at(held);
+  const double white = parts_.table ? parts_.table->at(held) : 1.0;
+  return sigmoid(*parts_.sigmoid, held) * white * static_cast<double>(parts_.scale);
 }
 
 double UpsampledSpectrum::max_value() const noexcept {
-  if (!sigmoid_) return *std::max_element(table_->values().begin(), table_->values().end());
-  double best = std::max((*this)(first_nm_), (*this)(last_nm_));
-  if (!table_) {
+  if (!parts_.sigmoid) return *std::max_element(parts_.table->values().begin(), parts_.table->values().end());
+  double best = std::max((*this)(parts_.first_nm), (*this)(parts_.last_nm));
+  if (!parts_.table) {
     // A sigmoid rises and falls with its quadratic: the other place for a maximum is the vertex.
-    const double vertex = c_[0] < 0 ? -0.5 * static_cast<double>(c_[1]) / static_cast<double>(c_[0]) : 0;
-    return std::max(best, (*this)(c_[0] < 0 ? 550 + 150 * vertex : first_nm_));
+    const std::array<float, 3>& c = *parts_.sigmoid;
+    const double vertex = c[0] < 0 ? -0.5 * static_cast<double>(c[1]) / static_cast<double>(c[0]) : 0;
+    return std::max(best, (*this)(c[0] < 0 ? 550 + 150 * vertex : parts_.first_nm));
   }
   constexpr double kStepsPerNm = 10;
-  const auto steps = static_cast<std::size_t>((last_nm_ - first_nm_) * kStepsPerNm);
+  const auto steps = static_cast<std::size_t>((parts_.last_nm - parts_.first_nm) * kStepsPerNm);
   for (std::size_t i = 0; i <= steps; ++i) {
-    best = std::max(best, (*this)(first_nm_ + static_cast<double>(i) / kStepsPerNm));
+    best = std::max(best, (*this)(parts_.first_nm + static_cast<double>(i) / kStepsPerNm));
   }
-  for (const double nm : table_->wavelengths_nm()) best = std::max(best, (*this)(nm));
+  for (const double nm : parts_.table->wavelengths_nm()) best = std::max(best, (*this)(nm));
   return best;
 }
 
 double UpsampledSpectrum::integral(double first_nm, double last_nm) const noexcept {
   if (!(last_nm > first_nm)) return 0;
-  if (!sigmoid_) return table_->integral(first_nm, last_nm);
+  if (!parts_.sigmoid) return parts_.table->integral(first_nm, last_nm);
   double sum = 0;
-  if (first_nm < first_nm_) sum += (std::min(last_nm, first_nm_) - first_nm) * (*this)(first_nm_);
-  if (last_nm > last_nm_) sum += (last_nm - std::max(first_nm, last_nm_)) * (*this)(last_nm_);
-  const double from = std::max(first_nm, first_nm_);
-  const double to = std::min(last_nm, last_nm_);
+  if (first_nm < parts_.first_nm)
+    sum += (std::min(last_nm, parts_.first_nm) - first_nm) * (*this)(parts_.first_nm);
+  if (last_nm > parts_.last_nm)
+    sum += (last_nm - std::max(first_nm, parts_.last_nm)) * (*this)(parts_.last_nm);
+  const double from = std::max(first_nm, parts_.first_nm);
+  const double to = std::min(last_nm, parts_.last_nm);
   if (!(to > from)) return sum;
   double at = from;
-  if (table_) {
-    for (const double nm : table_->wavelengths_nm()) {
+  if (parts_.table) {
+    for (const double nm : parts_.table->wavelengths_nm()) {
       if (nm <= at || nm >= to) continue;
       sum += quadrature::adaptive(*this, at, nm, 1e-10);
       at = nm;
@@ -67,8 +77,8 @@ double UpsampledSpectrum::integral(double first_nm, double last_nm) const noexce
 }
 
 std::string UpsampledSpectrum::to_text() const {
-  return fmt::format("{} of RGB {} {} {} by {}, {} to {} nm", to_string(quantity_), rgb_[0], rgb_[1], rgb_[2],
-                     to_string(method_), first_nm_, last_nm_);
+  return fmt::format("{} of RGB {} {} {} by {}, {} to {} nm", parts_.quantity, parts_.rgb[0], parts_.rgb[1],
+                     parts_.rgb[2], parts_.method, parts_.first_nm, parts_.last_nm);
 }
 
 }  // namespace spectile

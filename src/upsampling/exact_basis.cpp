@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/data/tables.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 #include "src/upsampling/quadratic_program.hpp"
 
 namespace spectile {

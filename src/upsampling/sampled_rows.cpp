@@ -7,7 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/color/working_space.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -49,7 +49,7 @@ float clamped_lambda(const SigmoidModel& model, double wavelength_nm) {
 Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsampler,
                                      const MeasuredSpectrum& light) {
   const UpsamplerOptions& made = upsampler.options();
-  const bool planned = bands.plan() != nullptr || upsampler.bands().plan() != nullptr;
+  const bool planned = bands.weights() != nullptr || upsampler.bands().weights() != nullptr;
   SPECTILE_ASSIGN(const auto space, working_space(planned ? bands : upsampler.bands(),
                                                   upsampler.quantity() == Quantity::kIlluminant,
                                                   made.primaries, light, made.observer));

@@ -7,7 +7,7 @@
 #include "src/base/errors.hpp"
 #include "src/color/working_space.hpp"
 #include "src/data/tables.hpp"
-#include "src/spectra/planned_bands.hpp"
+#include "src/spectra/band_weights.hpp"
 #include "src/upsampling/exact_basis.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -72,7 +72,7 @@ Result<BasisTable> published_basis(Method method, Quantity quantity, const Bands
 /// Luminance of red, green and blue, for the light's white as the whole visible range shows it.
 Result<std::array<float, 3>> luminance_weights(const UpsamplerOptions& options,
                                                const MeasuredSpectrum& light) {
-  SPECTILE_ASSIGN(const auto visible, Bands::uniform(360, 830, 1));
+  SPECTILE_ASSIGN(const auto visible, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
   SPECTILE_ASSIGN(const auto space,
                   working_space(visible, false, options.primaries, light, options.observer));
   std::array<float, 3> out{};

@@ -75,9 +75,9 @@ TEST_F(PlanCommand, WritesAPlanAndReportsItsPromise) {
   const auto plan = load_plan(output_);
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_EQ(plan->count(), 8U);
-  ASSERT_EQ(plan->lights.size(), 2U);
-  EXPECT_EQ(plan->lights[0].name, "D65");
-  EXPECT_EQ(plan->promises.size(), 4U);
+  ASSERT_EQ(plan->weights.lights.size(), 2U);
+  EXPECT_EQ(plan->weights.lights[0].name, "D65");
+  EXPECT_EQ(plan->report.errors.size(), 4U);
   // The published lights are kept by name alone.
   EXPECT_THAT(test::file_bytes(output_), testing::Not(HasSubstr("\"spectrum\"")));
 }
@@ -102,7 +102,7 @@ TEST_F(PlanCommand, PlansForTheColorsOfATexture) {
   EXPECT_THAT(outcome.out, HasSubstr("no cross-validated error"));
   const auto plan = load_plan(output_);
   ASSERT_TRUE(plan) << plan.error().message;
-  EXPECT_TRUE(plan->promises.empty());
+  EXPECT_TRUE(plan->report.errors.empty());
 }
 
 TEST_F(PlanCommand, AnErrorThatCannotBeMetIsSaidInOneLine) {

@@ -70,7 +70,7 @@ TEST_F(PlannedBandsTool, ANewPlanMakesOldOutputsOutOfDate) {
   ASSERT_EQ(run_tool(command).exit, 0);
   EXPECT_THAT(run_tool(command).out, HasSubstr("up to date"));
   Plan plan = *load_plan(plan_);
-  plan.lights[0].emission[2] *= 1.01;
+  plan.weights.lights[0].emission[2] *= 1.01;
   ASSERT_TRUE(save_plan(plan, plan_));
   const auto again = run_tool(command);
   EXPECT_EQ(again.exit, 0) << again;

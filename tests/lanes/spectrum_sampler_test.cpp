@@ -5,6 +5,7 @@
 #include <numbers>
 #include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/spectra/spectrum.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "tests/support/lanes.hpp"
 
@@ -67,7 +68,7 @@ TEST(SpectrumSampler, UpsampledOnesAreWhatTheirFormulasSay) {
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, Bands());
-      const auto s = *UpsampledSpectrum::from_rgb(upsampler, {0.9, 0.4, 0.05});
+      const auto s = *rgb_spectrum(upsampler, {0.9, 0.4, 0.05});
       expect_within(s, 300, 900, 0, 3e-7 * s.max_value() + 3e-7);
     }
   }

@@ -1,6 +1,7 @@
 // Sampled wavelengths: samplers against their distributions, and estimates that are right on average.
-#include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/color/response_curves.hpp>
+#include <spectile/lanes/spectrum_sampler.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "src/data/tables.hpp"
 #include "tests/lanes/wavelengths_support.hpp"
@@ -156,8 +157,7 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
       *BlackbodySpectrum::create(6500),
       *BlackbodySpectrum::create(1e9),
       *GaussianSumSpectrum::from_lobes({{1, 500, 1e-300, 2}, {-3, 600, 1e-3, 1e5}}),
-      *UpsampledSpectrum::from_rgb(*Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands()),
-                                   {0.9, 0.4, 0.1})};
+      *rgb_spectrum(*Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, Bands()), {0.9, 0.4, 0.1})};
   const auto curves = *ResponseCurves::of_observer();
   const float odd_u[] = {0, 1 - 0x1p-24F, 1, -1, kNan, kInf, -kInf, kTiny, 0.5F};
   const float odd[] = {0, -0.0F, kInf, -kInf, kNan, -1, kTiny, kMost, 360, 830, 829.99994F};

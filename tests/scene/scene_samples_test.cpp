@@ -1,4 +1,4 @@
-// Samples of procedural scenes: on average what the closed forms say, and the same ones in any run.
+// Samples of procedural scenes: their averages are the closed forms, and the same ones in any run.
 #include <map>
 
 #include "tests/scene/scene_support.hpp"

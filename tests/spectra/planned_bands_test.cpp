@@ -12,9 +12,9 @@ namespace {
 
 using testing::HasSubstr;
 
-Plan plan_for(std::vector<const char*> lights, std::size_t bands, PlanSampling sampling) {
+Plan plan_for(std::vector<const char*> lights, std::size_t bands, BandSampling sampling) {
   PlannerOptions o;
-  for (const char* name : lights) o.lights.push_back({name, *find_spectrum(name)});
+  for (const char* name : lights) o.lights.push_back(*find_light(name));
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind == "reflectance") o.reflectances.push_back(*named_spectrum(info.name));
   }
@@ -26,50 +26,68 @@ Plan plan_for(std::vector<const char*> lights, std::size_t bands, PlanSampling s
 
 /// Made once: they take a second each.
 const Plan& points() {
-  static const Plan plan = plan_for({"D65", "FL11"}, 12, PlanSampling::kPoints);
+  static const Plan plan = plan_for({"D65", "FL11"}, 12, BandSampling::kPoints);
   return plan;
 }
 const Plan& averages() {
-  static const Plan plan = plan_for({"D65", "FL11"}, 12, PlanSampling::kBands);
+  static const Plan plan = plan_for({"D65", "FL11"}, 12, BandSampling::kAverages);
   return plan;
 }
 
-class PlannedBands : public testing::TestWithParam<PlanSampling> {
+class PlannedBands : public testing::TestWithParam<BandSampling> {
  protected:
-  const Plan& plan_ = GetParam() == PlanSampling::kPoints ? points() : averages();
-  const Bands bands_ = *Bands::of_plan(plan_);
+  const Plan& plan_ = GetParam() == BandSampling::kPoints ? points() : averages();
+  const Bands bands_ = *planned_bands(plan_);
 };
 
 TEST_P(PlannedBands, LieAtThePlansWavelengths) {
   ASSERT_EQ(bands_.count(), plan_.count());
   for (std::size_t k = 0; k < bands_.count(); ++k) EXPECT_EQ(bands_[k].centre_nm, plan_.wavelengths_nm[k]);
-  EXPECT_EQ(bands_.are_points(), GetParam() == PlanSampling::kPoints);
-  ASSERT_NE(bands_.plan(), nullptr);
-  EXPECT_EQ(Bands().plan(), nullptr);
+  EXPECT_EQ(bands_.are_points(), GetParam() == BandSampling::kPoints);
+  ASSERT_NE(bands_.weights(), nullptr);
+  EXPECT_EQ(Bands().weights(), nullptr);
   EXPECT_FALSE(Bands().are_points());
 }
 
 TEST_P(PlannedBands, EqualThoseOfTheSameWeightsOnly) {
-  EXPECT_EQ(*Bands::of_plan(plan_), bands_);
+  EXPECT_EQ(*planned_bands(plan_), bands_);
   Plan other = plan_;
-  other.lights[1].emission[3] *= 1.000001;
-  EXPECT_FALSE(*Bands::of_plan(other) == bands_);
+  other.weights.lights[1].emission[3] *= 1.000001;
+  EXPECT_FALSE(*planned_bands(other) == bands_);
   other = plan_;
-  other.sensor[0][2] += 1e-9;
-  EXPECT_FALSE(*Bands::of_plan(other) == bands_);
+  other.weights.sensor[0][2] += 1e-9;
+  EXPECT_FALSE(*planned_bands(other) == bands_);
+  other = plan_;
+  other.weights.lights[0].spectrum = *illuminant("D50");
+  EXPECT_FALSE(*planned_bands(other) == bands_);
+  other = plan_;
+  other.weights.lights[0].name = "daylight";
+  EXPECT_FALSE(*planned_bands(other) == bands_);
+  other = plan_;
+  other.weights.lights[0].spectrum = plan_.weights.lights[0].spectrum.scaled(0.3);
+  other.report.errors = {{"D65", 1, {}}};
+  EXPECT_EQ(*planned_bands(other), bands_) << "scale and report do not count";
   EXPECT_FALSE(*Bands::from_list({bands_.list().begin(), bands_.list().end()}) == bands_);
 }
 
+TEST_P(PlannedBands, GiveTheirPlanBack) {
+  Plan plan = plan_;
+  plan.report.errors = {{"FL11", 2, {1, 2, 3}}};
+  const Plan back = plan_of_bands(*planned_bands(plan));
+  EXPECT_EQ(plan_to_json(back), plan_to_json(plan));
+}
+
 TEST_P(PlannedBands, AreWeighedBySensorAndEmission) {
-  for (std::size_t l = 0; l < plan_.lights.size(); ++l) {
-    const auto projector = Projector::reflective(bands_, *illuminant(plan_.lights[l].name));
+  for (std::size_t l = 0; l < plan_.weights.lights.size(); ++l) {
+    const auto projector = Projector::reflective(bands_, *illuminant(plan_.weights.lights[l].name));
     ASSERT_TRUE(projector) << projector.error().message;
     std::vector<double> ones(plan_.count(), 1.0);
     const auto white = plan_.xyz(l, ones);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_NEAR(projector->white()[c], white[c], 1e-12);
       for (std::size_t k = 0; k < plan_.count(); ++k) {
-        EXPECT_NEAR(projector->weights()[k][c], plan_.sensor[k][c] * plan_.lights[l].emission[k], 1e-12);
+        EXPECT_NEAR(projector->weights()[k][c],
+                    plan_.weights.sensor[k][c] * plan_.weights.lights[l].emission[k], 1e-12);
       }
     }
   }
@@ -86,7 +104,8 @@ TEST_P(PlannedBands, LightsWeighTheSameAsReflectancesUnderThem) {
   // Emission values times a reflectance, as a light of its own.
   std::array<double, 3> light{};
   for (std::size_t k = 0; k < plan_.count(); ++k) {
-    for (std::size_t c = 0; c < 3; ++c) light[c] += emissive->weights()[k][c] * plan_.lights[1].emission[k];
+    for (std::size_t c = 0; c < 3; ++c)
+      light[c] += emissive->weights()[k][c] * plan_.weights.lights[1].emission[k];
   }
   const auto under = *Projector::reflective(bands_, *illuminant("FL11"));
   for (const std::size_t c : {0U, 2U}) EXPECT_NEAR(light[c] / light[1], under.white()[c], 1e-12);
@@ -108,7 +127,7 @@ TEST_P(PlannedBands, SampleSpectraAsTheirPlanDoes) {
   const auto samples = ramp.average_over(bands_);
   for (std::size_t k = 0; k < bands_.count(); ++k) {
     const double expected =
-        GetParam() == PlanSampling::kPoints
+        GetParam() == BandSampling::kPoints
             ? ramp.at(plan_.wavelengths_nm[k])
             : ramp.integral(bands_[k].lower_nm, bands_[k].upper_nm) / bands_[k].width_nm();
     EXPECT_EQ(samples[k], static_cast<float>(expected)) << k;
@@ -165,7 +184,7 @@ TEST_P(PlannedBands, FeedFilms) {
   std::array<double, 3> expected{};
   const auto emissive = *Projector::emissive(bands_);
   for (std::size_t k = 0; k < bands_.count(); ++k) {
-    radiance.push_back(static_cast<float>(plan_.lights[1].emission[k]) * 0.5F);
+    radiance.push_back(static_cast<float>(plan_.weights.lights[1].emission[k]) * 0.5F);
     for (std::size_t c = 0; c < 3; ++c)
       expected[c] += emissive.weights()[k][c] * static_cast<double>(radiance[k]);
   }
@@ -181,9 +200,9 @@ TEST_P(PlannedBands, FeedFilms) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samplings, PlannedBands,
-                         testing::Values(PlanSampling::kPoints, PlanSampling::kBands),
+                         testing::Values(BandSampling::kPoints, BandSampling::kAverages),
                          [](const auto& sampling) {
-                           return sampling.param == PlanSampling::kPoints ? "Points" : "Bands";
+                           return sampling.param == BandSampling::kPoints ? "Points" : "Bands";
                          });
 
 TEST(PlannedBandsOfPoints, AreNoBucketsForWavelengths) {
@@ -191,22 +210,22 @@ TEST(PlannedBandsOfPoints, AreNoBucketsForWavelengths) {
   o.width = o.height = 1;
   o.input = FilmInput::kWavelengths;
   o.spectral = true;
-  o.bands = *Bands::of_plan(points());
+  o.bands = *planned_bands(points());
   const auto film = Film::create(o);
   ASSERT_FALSE(film);
   EXPECT_THAT(film.error().message, HasSubstr("values at 12 wavelengths"));
 }
 
 TEST(PlannedBandsOfBrokenPlans, AreRefused) {
-  EXPECT_FALSE(Bands::of_plan({}));
+  EXPECT_FALSE(planned_bands({}));
   Plan plan = points();
-  plan.lights[0].emission.pop_back();
-  const auto bands = Bands::of_plan(plan);
+  plan.weights.lights[0].emission.pop_back();
+  const auto bands = planned_bands(plan);
   ASSERT_FALSE(bands);
   EXPECT_THAT(bands.error().message, HasSubstr("not whole"));
   plan = points();
   std::swap(plan.wavelengths_nm[0], plan.wavelengths_nm[1]);
-  EXPECT_FALSE(Bands::of_plan(plan));
+  EXPECT_FALSE(planned_bands(plan));
 }
 
 }  // namespace

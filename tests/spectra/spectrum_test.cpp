@@ -2,6 +2,7 @@
 // otherwise.
 #include <numbers>
 #include <spectile/spectra/spectrum.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "tests/spectra/spectra_support.hpp"
 #include "tests/support/lanes.hpp"

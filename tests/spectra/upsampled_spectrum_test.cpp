@@ -5,6 +5,7 @@
 #include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/radiometry/radiometry.hpp>
 #include <spectile/spectra/spectrum.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "tests/spectra/spectra_support.hpp"
 #include "tests/support/lanes.hpp"
@@ -25,7 +26,7 @@ TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
       const auto upsampler = Upsampler::create(method, quantity, bands);
       if (!upsampler) continue;
       for (const auto& rgb : colors) {
-        const auto s = UpsampledSpectrum::from_rgb(*upsampler, rgb);
+        const auto s = rgb_spectrum(*upsampler, rgb);
         if (!s) continue;
         ++made;
         const std::string what = s->to_text();
@@ -64,7 +65,7 @@ TEST(UpsampledSpectrum, AtTheCentresItIsWhatTheBatchMakes) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, Bands());
       const std::array<double, 3> rgb = {0.8, 0.35, 0.1};
-      const auto s = *UpsampledSpectrum::from_rgb(upsampler, rgb);
+      const auto s = *rgb_spectrum(upsampler, rgb);
       auto lanes = *ColorLanes::create(1);
       for (std::size_t k = 0; k < 3; ++k) lanes.at(0, k) = static_cast<float>(rgb[k]);
       auto batch = *SampledSpectra::create(Bands(), 1);

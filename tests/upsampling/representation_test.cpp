@@ -2,6 +2,7 @@
 // suffice.
 #include <spectile/color/color_difference.hpp>
 #include <spectile/upsampling/representation.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "tests/upsampling/round_trip.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <spectile/plan/plan.hpp>
+#include <spectile/color/color_difference.hpp>
 #include <spectile/result.hpp>
 #include <string>
 #include <vector>
@@ -84,13 +84,6 @@ struct BaselineSpeed {
   double error = 0;     ///< of the engine, in units of `error_unit`
   double baseline_error = 0;
   std::string error_unit;
-};
-
-/// Colour differences from the reference. Units: CIEDE2000.
-struct ColorError {
-  double mean = 0;
-  double percentile95 = 0;
-  double maximum = 0;
 };
 
 /// One method of doing a job under a light.

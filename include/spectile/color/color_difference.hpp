@@ -49,4 +49,11 @@ double ciede2000(const Lab& reference, const Lab& sample);
 Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double, 3>& white,
                        LanesSpan difference, const Execution& execution = {});
 
+/// Colour differences against a reference, summarized. Units: CIEDE2000.
+struct ColorError {
+  double mean = 0;
+  double percentile95 = 0;
+  double maximum = 0;
+};
+
 }  // namespace spectile

@@ -9,15 +9,10 @@
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
+#include <spectile/spectra/observer.hpp>
 #include <vector>
 
 namespace spectile {
-
-/// The CIE standard observers.
-enum class Observer {
-  kCie1931,  ///< 2 degree
-  kCie1964,  ///< 10 degree
-};
 
 class Sensor;
 class Spectrum;

@@ -13,6 +13,7 @@
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
+#include <spectile/spectra/named_light.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 #include <string_view>
@@ -85,12 +86,6 @@ struct ImageOptions {
   /// spectra, or of colours in linear light. kBadArgument for coefficients that are not linear in spectra.
   bool mipmap = false;
   ProgressFunction progress;
-};
-
-/// A light and how it is called in files and reports.
-struct NamedLight {
-  std::string name;
-  MeasuredSpectrum spectrum;
 };
 
 /// How colours become spectra: what upsampling, relighting and verification share.

@@ -18,7 +18,7 @@ namespace spectile {
 /// Numbers come back to the bit. Lines are indented, and end in a line break, where it is not to be one line.
 std::string plan_to_json(const Plan& plan, bool one_line = false);
 
-/// Reads what plan_to_json() writes; what it does not know is passed over, promises may be missing.
+/// Reads the text of plan_to_json(); unknown keys are ignored, "promise", the cross-validated errors, may be missing.
 /// Errors: kBadFile, naming `source`, for what is no JSON, and for a plan that cannot be: lists of different
 /// lengths, wavelengths that do not ascend or are not from 100 to 10000 nm, numbers that are not finite, no
 /// light, a light by an unknown name without a spectrum, two lights of one name.
@@ -28,7 +28,7 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source);
 Result<Plan> load_plan(const std::string& path);
 
 /// Bands from what a user writes: as Bands::parse() takes them, or the path of a plan. Errors: those of
-/// Bands::parse(), load_plan() and Bands::of_plan().
+/// Bands::parse(), load_plan() and planned_bands().
 Result<Bands> find_bands(const std::string& text);
 
 /// Writes a plan, whole or not at all. Errors: kNoPermission, kNoSpace, kBadFile; kBadArgument for a plan

@@ -92,7 +92,7 @@ double cos_phi(const Vector3& w) noexcept;
 double sin_phi(const Vector3& w) noexcept;
 /// Cosine of the difference of two directions' phi; 1 where one of them is a pole.
 double cos_phi_difference(const Vector3& a, const Vector3& b) noexcept;
-/// Whether both are strictly on one side of the horizon.
+/// True if both are strictly on one side of the horizon.
 constexpr bool same_hemisphere(const Vector3& a, const Vector3& b) noexcept {
   return a.z * b.z > 0;
 }

@@ -75,7 +75,7 @@ Result<double> luminous_efficiency(const Spectrum& spectrum);
 /// Wavelength of the maximum of radiance per unit of wavelength. Units: nm, in vacuum. Source: Wien's
 /// displacement law.
 double wien_peak_nm(double temperature_k) noexcept;
-/// What a black body emits from each unit of area, over all wavelengths. Source: law of Stefan and Boltzmann.
+/// Radiant exitance of a black body over all wavelengths. Source: law of Stefan and Boltzmann.
 RadiantExitance blackbody_exitance(double temperature_k) noexcept;
 /// Its radiance over all wavelengths: the exitance divided by pi steradian.
 Radiance blackbody_radiance(double temperature_k) noexcept;

@@ -11,7 +11,14 @@
 
 namespace spectile {
 
-struct Plan;
+struct BandWeights;
+struct PlanReport;
+
+/// Meaning of a sample in a band.
+enum class BandSampling {
+  kPoints,    ///< the value at the centre, as renderers that trace wavelengths take it
+  kAverages,  ///< the average over the band, as sampled spectra hold it
+};
 
 /// One wavelength interval. Units: nm; lower < centre < upper.
 struct Band {
@@ -30,7 +37,7 @@ class Bands {
   Bands();
 
   /// Uniform bands of `step_nm` from `first_nm` to `last_nm`.
-  /// Units: nm. The range must hold a whole number of steps (to 1e-6 of a step).
+  /// Units: nm. The range must hold an integer number of steps (to 1e-6 of a step).
   /// Errors: kBadArgument for edges not finite or not positive, an empty range, a step that does not divide
   /// it, or more than kMaxBands bands.
   static Result<Bands> uniform(double first_nm, double last_nm, double step_nm);
@@ -48,12 +55,12 @@ class Bands {
   /// Errors: kBadArgument with the text quoted.
   static Result<Bands> parse(std::string_view text);
 
-  /// Those of a plan, which they carry along: projections weigh them with the plan's sensor and the emission
-  /// of one of its lights. Where the plan's samples are values at wavelengths, so are these bands', and their
-  /// edges, halfway between neighbours, only say which part of the spectrum each stands for.
-  /// Errors: kBadArgument for a plan without wavelengths, of lists that differ in length, or as for
-  /// from_list.
-  static Result<Bands> of_plan(const Plan& plan);
+  /// These bands with weights of their own, by which projections weigh them, and the report of the plan that
+  /// the weights are of, which files carry along and no operation reads. The edges of points, halfway between
+  /// neighbours, only say which part of the spectrum each stands for.
+  /// Errors: kBadArgument for no lights, and for lists of other lengths than the bands.
+  Result<Bands> with_weights(BandWeights weights, BandSampling sampling,
+                             std::shared_ptr<const PlanReport> report = nullptr) const;
 
   static constexpr std::size_t kMaxBands = 4096;
 
@@ -61,24 +68,29 @@ class Bands {
   const Band& operator[](std::size_t i) const noexcept { return (*bands_)[i]; }
   std::span<const Band> list() const noexcept { return *bands_; }
 
-  /// The plan that they are of; null for others.
-  const Plan* plan() const noexcept { return plan_.get(); }
-  /// Whether samples are values at the centres, as some plans' are, and not averages.
+  /// Weights of planned bands; null for others.
+  const BandWeights* weights() const noexcept;
+  /// Report of the plan that the weights are of; null where there is none.
+  const PlanReport* report() const noexcept;
+  /// True if samples are values at the centres, as some plans' are, and not averages.
   bool are_points() const noexcept;
 
   /// "400:700:5", or for other lists the count and the range: "36 bands from 375 to 735 nm".
   std::string description() const;
 
-  /// Equal when every edge and centre is, and the plans' weights are where there are plans.
+  /// Equal when every edge and centre is, and so are the weights where there are any. Lights are equal when
+  /// their names and spectra are, on any scale.
   friend bool operator==(const Bands& a, const Bands& b) noexcept {
-    return (a.bands_ == b.bands_ || *a.bands_ == *b.bands_) && (a.plan_ == b.plan_ || same_plan(a, b));
+    return (a.bands_ == b.bands_ || *a.bands_ == *b.bands_) &&
+           (a.weighting_ == b.weighting_ || same_weighting(a, b));
   }
 
  private:
+  struct Weighting;
   explicit Bands(std::vector<Band> bands);
-  static bool same_plan(const Bands& a, const Bands& b) noexcept;
+  static bool same_weighting(const Bands& a, const Bands& b) noexcept;
   std::shared_ptr<const std::vector<Band>> bands_;
-  std::shared_ptr<const Plan> plan_;
+  std::shared_ptr<const Weighting> weighting_;
 };
 
 }  // namespace spectile

@@ -1,6 +1,7 @@
 // Spectra by name, and from files.
 #pragma once
 
+#include <spectile/spectra/named_light.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <string>
 #include <string_view>
@@ -8,7 +9,7 @@
 
 namespace spectile {
 
-/// What there is to know of a named spectrum.
+/// Description of a named spectrum.
 struct NamedSpectrumInfo {
   std::string name;  ///< "D65", "Cu-eta", "canon-eos-5d-mkii-r", "cie1931-x"
   std::string kind;  ///< "illuminant", "refractive index", "absorption index", "camera response", "observer",
@@ -32,7 +33,8 @@ Result<Spectrum> named_spectrum(std::string_view name);
 /// begin with neither digit, sign nor point, are passed over; columns after the second are an error), or
 /// CGATS as Argyll CMS writes it (`.sp`, `.cmf`: SPECTRAL_START_NM, SPECTRAL_END_NM, SPECTRAL_BANDS; values
 /// are divided by SPECTRAL_NORM, 1 where there is none; BEGIN_DATA to END_DATA, of the fields named SPEC_*
-/// where fields are named; what follows is not read). Which it is is told by its text, not by its name.
+/// where fields are named; what follows is not read). The format is detected from the content,
+/// not from the name.
 /// `column` picks the data row of a CGATS file with several (x, y, z of an observer), from 0.
 /// Samples out of order are sorted; two samples of one wavelength are a step (see MeasuredSpectrum); three of
 /// one, a number that is not finite, a wavelength not above 0, or no sample at all are errors, and so are
@@ -51,5 +53,9 @@ Result<std::vector<Spectrum>> load_spectra(const std::string& path);
 /// A name if there is one, else a file. Errors: those of named_spectrum() for a text that is no path of a
 /// file and has neither point nor slash in it, else those of load_spectrum().
 Result<Spectrum> find_spectrum(const std::string& name_or_path);
+
+/// The same as a light, under its published name or the file's name without its folder. Errors: those of
+/// tabulated() too.
+Result<NamedLight> find_light(const std::string& name_or_path);
 
 }  // namespace spectile

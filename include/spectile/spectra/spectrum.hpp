@@ -3,23 +3,19 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
-#include <spectile/upsampling/upsample.hpp>
+#include <spectile/spectra/observer.hpp>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace spectile {
 
-/// The range over which distributions are tabulated and integrated where none is given. Units: nm. Source:
-/// CIE 015:2018, range of the standard observers.
-inline constexpr double kFirstVisibleNm = 360;
-inline constexpr double kLastVisibleNm = 830;
-
-/// What all distributions have in common, on top of operator(), integral(), max_value() and to_text().
+/// Operations common to all distributions, beside operator(), integral(), max_value() and to_text().
 template <class Distribution>
 class SpectrumOperations {
  public:
@@ -177,14 +173,26 @@ class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
   std::shared_ptr<const std::vector<Lobe>> lobes_;
 };
 
-/// The spectrum that an upsampling method makes of an RGB colour, as it is between and beyond the centres of
-/// the method's bands: mixtures of basis spectra and a light's white are linear there, a sigmoid is itself;
-/// beyond the bands' outer centres all keep the value there.
+/// The spectrum of an RGB colour as an upsampling method defines it between and beyond the centres of its
+/// bands (see rgb_spectrum()): a table, linear in between, or a sigmoid of a quadratic, times a light's table
+/// where it is a light; beyond the outer centres it keeps the value there.
 class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
  public:
-  /// Errors: kBadArgument for a component that is not finite, and for colours that the method cannot make
-  /// (see gamut_clip).
-  static Result<UpsampledSpectrum> from_rgb(const Upsampler& upsampler, const std::array<double, 3>& rgb);
+  /// The parts that make it up.
+  struct Parts {
+    std::string method;    ///< name, for to_text()
+    std::string quantity;  ///< name, for to_text()
+    std::array<double, 3> rgb{};
+    double first_nm = 0;  ///< the outer centres
+    double last_nm = 0;
+    std::optional<std::array<float, 3>> sigmoid;  ///< coefficients; none for a table alone
+    float scale = 1;                              ///< of the sigmoid
+    /// Samples at the centres: of the spectrum itself, or of the light that a sigmoid is multiplied by. May
+    /// be null for a sigmoid.
+    std::shared_ptr<const MeasuredSpectrum> table;
+  };
+  /// Errors: kBadArgument for neither sigmoid nor table.
+  static Result<UpsampledSpectrum> create(Parts parts);
 
   double operator()(double lambda_nm) const noexcept;
   /// Over the range of its bands; a sigmoid times a light at every 0.1 nm.
@@ -192,30 +200,18 @@ class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
   /// Exact where it is linear; a sigmoid's by Gauss-Legendre quadrature to a relative 1e-9.
   double integral(double first_nm, double last_nm) const noexcept;
   std::string to_text() const;
-  Method method() const noexcept { return method_; }
-  Quantity quantity() const noexcept { return quantity_; }
-  const std::array<double, 3>& rgb() const noexcept { return rgb_; }
-  /// Whether it is a sigmoid: then coefficients(), scale() and light() are what makes it up.
-  bool is_sigmoid() const noexcept { return sigmoid_; }
-  const std::array<float, 3>& coefficients() const noexcept { return c_; }
-  float scale() const noexcept { return scale_; }
-  /// Samples at the bands' centres, with constant ends: of the mixture, or of the white that a sigmoid is
-  /// multiplied by (null where there is none).
-  const MeasuredSpectrum* table() const noexcept { return table_.get(); }
-  double first_nm() const noexcept { return first_nm_; }
-  double last_nm() const noexcept { return last_nm_; }
+  const std::array<double, 3>& rgb() const noexcept { return parts_.rgb; }
+  bool is_sigmoid() const noexcept { return parts_.sigmoid.has_value(); }
+  /// Of a sigmoid only.
+  const std::array<float, 3>& coefficients() const noexcept { return *parts_.sigmoid; }
+  float scale() const noexcept { return parts_.scale; }
+  const MeasuredSpectrum* table() const noexcept { return parts_.table.get(); }
+  double first_nm() const noexcept { return parts_.first_nm; }
+  double last_nm() const noexcept { return parts_.last_nm; }
 
  private:
-  UpsampledSpectrum() = default;
-  Method method_ = kDefaultMethod;
-  Quantity quantity_ = Quantity::kReflectance;
-  std::array<double, 3> rgb_{};
-  bool sigmoid_ = false;
-  std::array<float, 3> c_{};
-  float scale_ = 1;
-  double first_nm_ = 0;
-  double last_nm_ = 0;
-  std::shared_ptr<const MeasuredSpectrum> table_;
+  explicit UpsampledSpectrum(Parts parts) : parts_(std::move(parts)) {}
+  Parts parts_;
 };
 
 /// Any distribution. Cheap to copy.
@@ -248,17 +244,6 @@ double inner_product(const Spectrum& a, const Spectrum& b, double first_nm = kFi
 /// The same of three spectra: a sensor's curve, a light, a reflectance.
 double inner_product(const Spectrum& a, const Spectrum& b, const Spectrum& c,
                      double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm);
-
-/// A reflectance between 0 and 1 for an RGB colour between 0 and 1, by an upsampler of reflectances.
-/// Errors: kBadArgument for an upsampler of another quantity, and as UpsampledSpectrum::from_rgb.
-Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb);
-/// The same for what may exceed 1, by an upsampler of unbounded spectra.
-Result<UpsampledSpectrum> rgb_unbounded_spectrum(const Upsampler& upsampler,
-                                                 const std::array<double, 3>& rgb);
-/// The same for light, by an upsampler of illuminants: RGB 1, 1, 1 is the light that the upsampler is made
-/// for, with Y = 1.
-Result<UpsampledSpectrum> rgb_illuminant_spectrum(const Upsampler& upsampler,
-                                                  const std::array<double, 3>& rgb);
 
 /// Daylight of a correlated colour temperature, 300 to 830 nm, 100 at 560 nm.
 /// Units: K (the scale of 1968 and later: D65 is 6504 K). Errors: kBadArgument outside 4000 to 25000 K.

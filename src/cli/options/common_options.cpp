@@ -95,26 +95,4 @@ void add_target_options(CLI::App& command, ColorTarget& target, Adaptation& adap
       ->group(kColorGroup);
 }
 
-Result<NamedLight> load_light(const std::string& text) {
-  auto found = find_spectrum(text);
-  if (!found) return found.error();
-  std::string name = named_spectrum(text) ? text : std::filesystem::path(text).filename().string();
-  for (const NamedSpectrumInfo& info : named_spectra()) {
-    if (CLI::detail::to_lower(info.name) == CLI::detail::to_lower(text)) name = info.name;
-  }
-  if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&found->kind())) {
-    return NamedLight{std::move(name), linear->measured()};
-  }
-  const std::vector<double> wavelengths = tabulated_nm();
-  auto table = MeasuredSpectrum::from_samples(wavelengths, found->sample(wavelengths));
-  if (!table) return table.error();
-  return NamedLight{std::move(name), *std::move(table)};
-}
-
-std::vector<double> tabulated_nm() {
-  std::vector<double> out;
-  for (int nm = 300; nm <= 830; ++nm) out.push_back(nm);
-  return out;
-}
-
 }  // namespace spectile::cli

@@ -75,11 +75,4 @@ void add_target_options(CLI::App& command, ColorTarget& target, Adaptation& adap
 inline constexpr const char* kSpectrumHelp =
     "SPECTRUM: a name (see spectile spectra), blackbody:KELVIN, daylight:KELVIN, or a file (CSV, CGATS).";
 
-/// An illuminant: whatever find_spectrum() takes. Beyond a table's samples it has the value of the nearest
-/// one; formulas are tabulated at tabulated_nm(), beyond which the same holds.
-Result<NamedLight> load_light(const std::string& text);
-
-/// Wavelengths at which formulas become tables: every nanometre from 300 to 830.
-std::vector<double> tabulated_nm();
-
 }  // namespace spectile::cli

@@ -74,7 +74,7 @@ int apply_method_options(const MethodArguments& a, MethodOptions& out) {
   if (const int bad = take(find_bands(a.bands), out.bands)) return bad;
   // D65 by name is the default.
   if (!a.white.empty()) {
-    if (const int bad = take(load_light(a.white), out.light)) return bad;
+    if (const int bad = take(find_light(a.white), out.light)) return bad;
     if (CLI::detail::to_lower(a.white) == "d65") out.light.reset();
   }
   out.observer = a.white_observer;

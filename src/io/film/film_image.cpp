@@ -118,7 +118,7 @@ Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
 Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t sensor,
                                 const std::string& path, const ImageOptions& options) {
   SPECTILE_ASSIGN(auto development, FilmDevelopment::create(film, layer, sensor));
-  SPECTILE_ASSIGN(const auto updated, development.update({options.threads}));
+  SPECTILE_TRY(development.update({options.threads}));
   Texts texts;
   if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
   if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};

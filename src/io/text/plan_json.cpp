@@ -29,10 +29,6 @@ constexpr std::size_t kMaxKeys = 1024;  // of one object, whose keys are searche
 constexpr const char* kMeasure = "CIEDE2000 against 1 nm integration, cross-validated";
 constexpr std::array<const char*, 3> kSensorNames = {"x", "y", "z"};
 
-const char* name_of(Observer observer) {
-  return observer == Observer::kCie1964 ? "1964" : "1931";
-}
-
 std::string dumped(const Json& json, int indent) {
   // Text that is no UTF-8 is mended rather than refused: names are for people.
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -40,17 +36,17 @@ std::string dumped(const Json& json, int indent) {
 
 // --- to JSON ----------------------------------------------------------------------------------------------
 
-Json to_json(const PlanError& error) {
+Json to_json(const ColorError& error) {
   return {{"mean", error.mean}, {"percentile95", error.percentile95}, {"maximum", error.maximum}};
 }
 
-bool is_published(const PlanLight& light) {
+bool is_published(const BandLight& light) {
   const auto known = illuminant(light.name);
   return known && std::ranges::equal(known->wavelengths_nm(), light.spectrum.wavelengths_nm()) &&
          std::ranges::equal(known->values(), light.spectrum.values());
 }
 
-Json to_json(const PlanLight& light) {
+Json to_json(const BandLight& light) {
   Json out = {{"name", light.name}, {"emission", light.emission}};
   if (!is_published(light)) {
     const auto wavelengths = light.spectrum.wavelengths_nm();
@@ -61,21 +57,20 @@ Json to_json(const PlanLight& light) {
   return out;
 }
 
-Json promises_of(const Plan& plan) {
+Json to_json(const PlanReport& report) {
   Json out = {{"measure", kMeasure}, {"illuminants", Json::object()}};
-  for (const PlanPromise& p : plan.promises) {
-    out["illuminants"][p.light][std::to_string(p.bounces)] = to_json(p.error);
+  for (const CrossValidatedError& e : report.errors) {
+    out["illuminants"][e.light][std::to_string(e.bounces)] = to_json(e.error);
   }
-  for (const EvenBandsPromise& even : plan.even) {
-    out["even_bands"][even.bands][even.promise.light][std::to_string(even.promise.bounces)] =
-        to_json(even.promise.error);
+  for (const EvenBandsError& e : report.even_bands) {
+    out["even_bands"][e.bands][e.light][std::to_string(e.bounces)] = to_json(e.error);
   }
   return out;
 }
 
 // --- checks -----------------------------------------------------------------------------------------------
 
-/// What is wrong with a plan, in words; empty for nothing.
+/// The first flaw of a plan, in words; empty for none.
 std::string flaw(const Plan& plan) {
   const std::size_t count = plan.wavelengths_nm.size();
   if (count == 0 || count > kMaxWavelengths) {
@@ -103,19 +98,19 @@ std::string flaw(const Plan& plan) {
     }
     if (const auto bands = Bands::from_list(plan.bands); !bands) return bands.error().message;
   }
-  if (plan.sensor.size() != count) {
-    return fmt::format("the sensor has {} weights for {} wavelengths", plan.sensor.size(), count);
+  if (plan.weights.sensor.size() != count) {
+    return fmt::format("the sensor has {} weights for {} wavelengths", plan.weights.sensor.size(), count);
   }
-  for (const auto& weights : plan.sensor) {
+  for (const auto& weights : plan.weights.sensor) {
     for (const double weight : weights) {
       if (!std::isfinite(weight)) return fmt::format("a sensor weight is {}", weight);
     }
   }
-  if (plan.lights.empty() || plan.lights.size() > kMaxLights) {
-    return fmt::format("{} lights are not from 1 to {}", plan.lights.size(), kMaxLights);
+  if (plan.weights.lights.empty() || plan.weights.lights.size() > kMaxLights) {
+    return fmt::format("{} lights are not from 1 to {}", plan.weights.lights.size(), kMaxLights);
   }
   std::set<std::string> names;
-  for (const PlanLight& light : plan.lights) {
+  for (const BandLight& light : plan.weights.lights) {
     if (!names.insert(light.name).second)
       return fmt::format("two lights are called {}", io::quoted(light.name));
     if (light.emission.size() != count) {
@@ -180,7 +175,7 @@ std::vector<double> numbers(const Json& object, const char* key, const std::stri
   return out;
 }
 
-PlanError error_of(const Json& json, const std::string& where) {
+ColorError error_from(const Json& json, const std::string& where) {
   const auto one = [&](const char* key) {
     const Json& value = member(json, key, where);
     if (!value.is_number()) throw Refused(fmt::format("\"{}\" of {} is no number", key, where));
@@ -189,8 +184,8 @@ PlanError error_of(const Json& json, const std::string& where) {
   return {one("mean"), one("percentile95"), one("maximum")};
 }
 
-std::vector<PlanPromise> promises_from(const Json& illuminants, const std::string& where) {
-  std::vector<PlanPromise> out;
+std::vector<CrossValidatedError> errors_from(const Json& illuminants, const std::string& where) {
+  std::vector<CrossValidatedError> out;
   if (!illuminants.is_object()) throw Refused(where + " is no object");
   for (const auto& [light, bounces] : illuminants.items()) {
     if (!bounces.is_object())
@@ -205,13 +200,13 @@ std::vector<PlanPromise> promises_from(const Json& illuminants, const std::strin
         throw Refused(fmt::format("{} under {} is given twice for {} bounces", where, io::quoted(light),
                                   static_cast<int>(*number)));
       }
-      out.push_back({light, static_cast<int>(*number), error_of(error, where)});
+      out.push_back({light, static_cast<int>(*number), error_from(error, where)});
     }
   }
   return out;
 }
 
-PlanLight light_from(const Json& json) {
+BandLight light_from(const Json& json) {
   const std::string where = "a light";
   const Json& name = member(json, "name", where);
   if (!name.is_string()) throw Refused("the name of a light is no text");
@@ -221,14 +216,14 @@ PlanLight light_from(const Json& json) {
   if (!json.contains("spectrum")) {
     auto known = illuminant(text);
     if (!known) throw Refused(named + " has no spectrum, and no illuminant is called so");
-    return {text, std::move(emission), *std::move(known)};
+    return {{text, *std::move(known)}, std::move(emission)};
   }
   const Json& spectrum = json["spectrum"];
   const std::string of = "the spectrum of " + named;
   auto samples = MeasuredSpectrum::from_samples(numbers(spectrum, "wavelengths_nm", of, kMaxValues),
                                                 numbers(spectrum, "values", of, kMaxValues));
   if (!samples) throw Refused(of + ": " + samples.error().message);
-  return {text, std::move(emission), *std::move(samples)};
+  return {{text, *std::move(samples)}, std::move(emission)};
 }
 
 /// [[lower, upper], ...], one for each wavelength.
@@ -251,7 +246,7 @@ Plan plan_from(const Json& json) {
   const std::string where = "the plan";
   Plan plan;
   plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, kMaxWavelengths);
-  plan.sensor.resize(plan.wavelengths_nm.size());
+  plan.weights.sensor.resize(plan.wavelengths_nm.size());
   const Json& sensor = member(json, "sensor", where);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto weights = numbers(sensor, kSensorNames[c], "the sensor", kMaxWavelengths);
@@ -259,7 +254,7 @@ Plan plan_from(const Json& json) {
       throw Refused(fmt::format("the sensor has {} weights for {}, but there are {} wavelengths",
                                 weights.size(), kSensorNames[c], plan.wavelengths_nm.size()));
     }
-    for (std::size_t k = 0; k < weights.size(); ++k) plan.sensor[k][c] = weights[k];
+    for (std::size_t k = 0; k < weights.size(); ++k) plan.weights.sensor[k][c] = weights[k];
   }
   if (json.contains("bands_nm")) plan.bands = bands_from(json["bands_nm"], plan.wavelengths_nm);
   const Json& lights = member(json, "illuminants", where);
@@ -267,23 +262,24 @@ Plan plan_from(const Json& json) {
   if (lights.size() > kMaxLights) {
     throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), kMaxLights));
   }
-  for (const Json& light : lights) plan.lights.push_back(light_from(light));
+  for (const Json& light : lights) plan.weights.lights.push_back(light_from(light));
   const Json& observer = member(json, "observer", where);
   if (observer != "1931" && observer != "1964")
     throw Refused("\"observer\" is neither \"1931\" nor \"1964\"");
-  if (observer == "1964") plan.observer = Observer::kCie1964;
+  if (observer == "1964") plan.weights.observer = Observer::kCie1964;
   const auto promise = json.find("promise");
   if (promise == json.end()) return plan;
   if (!promise->is_object()) throw Refused("\"promise\" is no object");
   if (promise->contains("illuminants")) {
-    plan.promises = promises_from((*promise)["illuminants"], "the promise");
+    plan.report.errors = errors_from((*promise)["illuminants"], "the promise");
   }
   if (promise->contains("even_bands")) {
     const Json& even = (*promise)["even_bands"];
     if (!even.is_object()) throw Refused("\"even_bands\" is no object");
     for (const auto& [bands, errors] : even.items()) {
-      for (auto& p : promises_from(errors, "the promise of even bands"))
-        plan.even.push_back({bands, std::move(p)});
+      for (auto& e : errors_from(errors, "the promise of even bands")) {
+        plan.report.even_bands.push_back({bands, std::move(e.light), e.bounces, e.error});
+      }
     }
   }
   return plan;
@@ -312,12 +308,12 @@ std::string plan_to_json(const Plan& plan, bool one_line) {
   out["sensor"] = Json::object();
   for (std::size_t c = 0; c < 3; ++c) {
     Json& weights = out["sensor"][kSensorNames[c]] = Json::array();
-    for (const auto& of : plan.sensor) weights.push_back(of[c]);
+    for (const auto& of : plan.weights.sensor) weights.push_back(of[c]);
   }
   out["illuminants"] = Json::array();
-  for (const PlanLight& light : plan.lights) out["illuminants"].push_back(to_json(light));
-  out["observer"] = name_of(plan.observer);
-  if (!plan.promises.empty() || !plan.even.empty()) out["promise"] = promises_of(plan);
+  for (const BandLight& light : plan.weights.lights) out["illuminants"].push_back(to_json(light));
+  out["observer"] = to_string(plan.weights.observer);
+  if (!plan.report.errors.empty() || !plan.report.even_bands.empty()) out["promise"] = to_json(plan.report);
   return one_line ? dumped(out, -1) : dumped(out, 1) + "\n";
 }
 
@@ -351,7 +347,7 @@ Result<Bands> find_bands(const std::string& text) {
   std::error_code error;
   if (!like_a_path && !std::filesystem::exists(text, error)) return bands;
   SPECTILE_ASSIGN(const auto plan, load_plan(text));
-  return Bands::of_plan(plan);
+  return planned_bands(plan);
 }
 
 Result<void> save_plan(const Plan& plan, const std::string& path) {

@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <numeric>
 #include <spectile/spectra/named_spectra.hpp>
 
@@ -79,6 +81,17 @@ Result<Spectrum> find_spectrum(const std::string& name_or_path) {
   const bool like_a_path = name_or_path.find_first_of("./") != std::string::npos;
   if (!like_a_path && ::stat(name_or_path.c_str(), &status) != 0) return known;
   return load_spectrum(name_or_path);
+}
+
+Result<NamedLight> find_light(const std::string& name_or_path) {
+  SPECTILE_ASSIGN(const auto found, find_spectrum(name_or_path));
+  const bool is_name = static_cast<bool>(named_spectrum(name_or_path));
+  std::string name = is_name ? name_or_path : std::filesystem::path(name_or_path).filename().string();
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  for (const NamedSpectrumInfo& info : named_spectra()) {
+    if (std::ranges::equal(info.name, name_or_path, same)) name = info.name;
+  }
+  return named_light(std::move(name), found);
 }
 
 }  // namespace spectile

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <spectile/image/plan_file.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
@@ -162,7 +163,7 @@ Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size
   }
   MethodOptions options = wanted;
   options.quantity = Quantity::kReflectance;
-  SPECTILE_ASSIGN(options.bands, Bands::uniform(360, 830, 5));
+  SPECTILE_ASSIGN(options.bands, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
   SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
   SPECTILE_ASSIGN(const auto census, census_of(path, upsampler, options));
   std::vector<Cell> cells = merged(census.cells(), most);
@@ -170,7 +171,7 @@ Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size
   std::vector<Spectrum> out;
   for (const Cell& cell : cells) {
     const Color color = {cell.mean(0), cell.mean(1), cell.mean(2)};
-    SPECTILE_ASSIGN(auto spectrum, UpsampledSpectrum::from_rgb(upsampler, color));
+    SPECTILE_ASSIGN(auto spectrum, rgb_spectrum(upsampler, color));
     out.emplace_back(std::move(spectrum));
   }
   return out;

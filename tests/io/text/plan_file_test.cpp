@@ -42,48 +42,50 @@ void expect_refused(const std::string& text, const std::string& because) {
 }
 
 void expect_same(const Plan& a, const Plan& b) {
-  EXPECT_EQ(a.observer, b.observer);
+  EXPECT_EQ(a.weights.observer, b.weights.observer);
   EXPECT_EQ(a.wavelengths_nm, b.wavelengths_nm);
-  EXPECT_EQ(a.sensor, b.sensor);
-  ASSERT_EQ(a.lights.size(), b.lights.size());
-  for (std::size_t l = 0; l < a.lights.size(); ++l) {
-    EXPECT_EQ(a.lights[l].name, b.lights[l].name);
-    EXPECT_EQ(a.lights[l].emission, b.lights[l].emission);
+  EXPECT_EQ(a.weights.sensor, b.weights.sensor);
+  ASSERT_EQ(a.weights.lights.size(), b.weights.lights.size());
+  for (std::size_t l = 0; l < a.weights.lights.size(); ++l) {
+    EXPECT_EQ(a.weights.lights[l].name, b.weights.lights[l].name);
+    EXPECT_EQ(a.weights.lights[l].emission, b.weights.lights[l].emission);
+    EXPECT_TRUE(std::ranges::equal(a.weights.lights[l].spectrum.wavelengths_nm(),
+                                   b.weights.lights[l].spectrum.wavelengths_nm()));
     EXPECT_TRUE(
-        std::ranges::equal(a.lights[l].spectrum.wavelengths_nm(), b.lights[l].spectrum.wavelengths_nm()));
-    EXPECT_TRUE(std::ranges::equal(a.lights[l].spectrum.values(), b.lights[l].spectrum.values()));
+        std::ranges::equal(a.weights.lights[l].spectrum.values(), b.weights.lights[l].spectrum.values()));
   }
-  const auto same = [](const PlanPromise& p, const PlanPromise& q) {
+  const auto same = [](const auto& p, const auto& q) {
     EXPECT_EQ(p.light, q.light);
     EXPECT_EQ(p.bounces, q.bounces);
     EXPECT_EQ(p.error.mean, q.error.mean);
     EXPECT_EQ(p.error.percentile95, q.error.percentile95);
     EXPECT_EQ(p.error.maximum, q.error.maximum);
   };
-  ASSERT_EQ(a.promises.size(), b.promises.size());
-  for (std::size_t i = 0; i < a.promises.size(); ++i) same(a.promises[i], b.promises[i]);
-  ASSERT_EQ(a.even.size(), b.even.size());
-  for (std::size_t i = 0; i < a.even.size(); ++i) {
-    EXPECT_EQ(a.even[i].bands, b.even[i].bands);
-    same(a.even[i].promise, b.even[i].promise);
+  ASSERT_EQ(a.report.errors.size(), b.report.errors.size());
+  for (std::size_t i = 0; i < a.report.errors.size(); ++i) same(a.report.errors[i], b.report.errors[i]);
+  ASSERT_EQ(a.report.even_bands.size(), b.report.even_bands.size());
+  for (std::size_t i = 0; i < a.report.even_bands.size(); ++i) {
+    EXPECT_EQ(a.report.even_bands[i].bands, b.report.even_bands[i].bands);
+    same(a.report.even_bands[i], b.report.even_bands[i]);
   }
 }
 
 Plan odd_plan() {
   Plan plan;
-  plan.observer = Observer::kCie1964;
+  plan.weights.observer = Observer::kCie1964;
   plan.wavelengths_nm = {100, 400 + 1e-13, 1e3 / 3, 10000};
   std::sort(plan.wavelengths_nm.begin(), plan.wavelengths_nm.end());
-  plan.sensor = {{0.1, -0.0, 5e-324}, {1e308, -1e-308, 1.0 / 3}, {0, 0, 0}, {std::nextafter(1.0, 2.0), 2, 3}};
+  plan.weights.sensor = {
+      {0.1, -0.0, 5e-324}, {1e308, -1e-308, 1.0 / 3}, {0, 0, 0}, {std::nextafter(1.0, 2.0), 2, 3}};
   const auto lamp = *MeasuredSpectrum::from_samples(std::vector<double>{400, 500, 500, 700},
                                                     std::vector<double>{1, 0.1, 1.0 / 7, 1e-17});
-  plan.lights = {{"D65", {1, 2, 3, 4}, *illuminant("D65")},
-                 {"A", {0.1, 0.2, 0.3, 1e300}, lamp},  // not the published one of that name
-                 {"a \"lamp\", \xC3\xA9t\xC3\xA9\n", {0, -1, 2, 3}, lamp}};
-  plan.promises = {{"D65", 1, {0.1, 0.2, 1.0 / 3}}, {"D65", 2, {1, 2, 3}}, {"A", 1, {0, 0, 0}}};
-  plan.even = {{"400:700:5", {"D65", 1, {0.3, 0.4, 0.5}}},
-               {"400:700:5", {"A", 2, {0.6, 0.7, 0.8}}},
-               {"380:780:10", {"D65", 1, {1e-9, 1, 2}}}};
+  plan.weights.lights = {{{"D65", *illuminant("D65")}, {1, 2, 3, 4}},
+                         {{"A", lamp}, {0.1, 0.2, 0.3, 1e300}},  // not the published one of that name
+                         {{"a \"lamp\", \xC3\xA9t\xC3\xA9\n", lamp}, {0, -1, 2, 3}}};
+  plan.report.errors = {{"D65", 1, {0.1, 0.2, 1.0 / 3}}, {"D65", 2, {1, 2, 3}}, {"A", 1, {0, 0, 0}}};
+  plan.report.even_bands = {{"400:700:5", "D65", 1, {0.3, 0.4, 0.5}},
+                            {"400:700:5", "A", 2, {0.6, 0.7, 0.8}},
+                            {"380:780:10", "D65", 1, {1e-9, 1, 2}}};
   return plan;
 }
 
@@ -93,7 +95,7 @@ TEST(PlanFile, ComesBackToTheBit) {
   const auto back = parse_plan(text, "text");
   ASSERT_TRUE(back) << back.error().message;
   expect_same(plan, *back);
-  EXPECT_TRUE(std::signbit(back->sensor[0][1]));
+  EXPECT_TRUE(std::signbit(back->weights.sensor[0][1]));
   EXPECT_EQ(plan_to_json(*back), text);
 }
 
@@ -108,7 +110,7 @@ TEST(PlanFile, ALightThatOnlyHasAPublishedNameKeepsItsSpectrum) {
   const auto published = *illuminant("A");
   std::vector<double> values(published.values().begin(), published.values().end());
   values.at(50) = std::nextafter(values.at(50), 0.0);
-  plan.lights[1].spectrum = *MeasuredSpectrum::from_samples(published.wavelengths_nm(), values);
+  plan.weights.lights[1].spectrum = *MeasuredSpectrum::from_samples(published.wavelengths_nm(), values);
   const auto back = parse_plan(plan_to_json(plan), "text");
   ASSERT_TRUE(back) << back.error().message;
   expect_same(plan, *back);
@@ -116,7 +118,7 @@ TEST(PlanFile, ALightThatOnlyHasAPublishedNameKeepsItsSpectrum) {
 
 TEST(PlanFile, WhatThePlannerMakesComesBack) {
   PlannerOptions options;
-  options.lights = {{"FL11", *named_spectrum("FL11")}, {"candle", *named_spectrum("blackbody:1900")}};
+  options.lights = {*find_light("FL11"), *named_light("candle", *named_spectrum("blackbody:1900"))};
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind == "reflectance") options.reflectances.push_back(*named_spectrum(info.name));
   }
@@ -129,7 +131,7 @@ TEST(PlanFile, WhatThePlannerMakesComesBack) {
   const auto back = load_plan(folder / "plan.json");
   ASSERT_TRUE(back) << back.error().message;
   expect_same(*plan, *back);
-  EXPECT_EQ(back->promises.size(), 2U);
+  EXPECT_EQ(back->report.errors.size(), 2U);
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"plan.json"}));
   const std::string text = test::file_bytes(folder / "plan.json");
   EXPECT_LT(text.find("FL11"), text.find("\"spectrum\""));
@@ -139,10 +141,10 @@ TEST(PlanFile, ReadsWhatAPersonWrites) {
   const auto plan = parse_plan(kText, "text");
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_EQ(plan->count(), 3U);
-  EXPECT_EQ(plan->observer, Observer::kCie1964);
-  EXPECT_EQ(plan->sensor[1][1], 0.6);
-  EXPECT_EQ(plan->lights[1].spectrum.at(550), 2);
-  EXPECT_TRUE(plan->promises.empty());
+  EXPECT_EQ(plan->weights.observer, Observer::kCie1964);
+  EXPECT_EQ(plan->weights.sensor[1][1], 0.6);
+  EXPECT_EQ(plan->weights.lights[1].spectrum.at(550), 2);
+  EXPECT_TRUE(plan->report.errors.empty());
 }
 
 TEST(PlanFile, RefusesWhatIsNoPlan) {
@@ -248,12 +250,12 @@ TEST(PlanFile, EveryTextCutShortIsRefused) {
 TEST(PlanFile, IsNotWrittenWhereItCouldNotBeRead) {
   test::TempFolder folder;
   Plan plan = odd_plan();
-  plan.sensor[0][0] = std::numeric_limits<double>::quiet_NaN();
+  plan.weights.sensor[0][0] = std::numeric_limits<double>::quiet_NaN();
   const auto saved = save_plan(plan, folder / "plan.json");
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ErrorCode::kBadArgument);
   plan = odd_plan();
-  plan.lights[1].emission[0] = std::numeric_limits<double>::infinity();
+  plan.weights.lights[1].emission[0] = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(save_plan(plan, folder / "plan.json"));
   EXPECT_EQ(save_plan(odd_plan(), folder / "none/plan.json").error().code, ErrorCode::kBadFile);
   EXPECT_EQ(save_plan(odd_plan(), folder.path().string()).error().code, ErrorCode::kBadFile);

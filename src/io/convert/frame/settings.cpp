@@ -4,11 +4,10 @@
 #include <fmt/ranges.h>
 #include <sys/stat.h>
 
-#include <bit>
-#include <cstdint>
 #include <spectile/image/settings.hpp>
-#include <spectile/plan/plan.hpp>
+#include <spectile/spectra/band_weights.hpp>
 
+#include "src/base/digest.hpp"
 #include "src/base/errors.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
@@ -18,22 +17,6 @@
 
 namespace spectile {
 namespace {
-
-/// FNV-1a over the bits of numbers. Source: Fowler, Noll, Vo; draft-eastlake-fnv.
-class Digest {
- public:
-  Digest& add(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int shift = 0; shift < 64; shift += 8) {
-      hash_ = (hash_ ^ ((bits >> shift) & 0xFFU)) * 0x100000001B3U;
-    }
-    return *this;
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  std::uint64_t hash_ = 0xCBF29CE484222325U;
-};
 
 /// Text in quotation marks on one line, such that no two texts look alike.
 std::string quoted(const std::string& text) {
@@ -62,12 +45,12 @@ std::string text_of(const MeasuredSpectrum& spectrum) {
 std::string text_of(const Bands& bands) {
   Digest digest;
   for (const Band& band : bands.list()) digest.add(band.lower_nm).add(band.centre_nm).add(band.upper_nm);
-  if (const Plan* const plan = bands.plan()) {
-    digest.add(bands.are_points() ? 1 : 0).add(plan->observer == Observer::kCie1964 ? 1964 : 1931);
-    for (const auto& weights : plan->sensor) {
+  if (const BandWeights* const own = bands.weights()) {
+    digest.add(bands.are_points() ? 1 : 0).add(own->observer == Observer::kCie1964 ? 1964 : 1931);
+    for (const auto& weights : own->sensor) {
       for (const double v : weights) digest.add(v);
     }
-    for (const PlanLight& light : plan->lights) {
+    for (const BandLight& light : own->lights) {
       for (const double v : light.emission) digest.add(v);
     }
   }

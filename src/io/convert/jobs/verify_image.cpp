@@ -98,7 +98,7 @@ Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptio
   const bool published = options.method == Method::kSmits || options.method == Method::kSmits1999;
   const auto basis = upsampler.basis();
   // The oracle averages over bands; a plan's points are held to their own tables in double.
-  out.basis = published && options.bands.plan() == nullptr
+  out.basis = published && options.bands.weights() == nullptr
                   ? oracle::smits_basis(options.method, options.quantity, options.bands)
                   : std::vector<std::array<double, 7>>(basis.begin(), basis.end());
   for (const auto& band : out.basis) {
@@ -240,7 +240,7 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
   // A plan's weights are given; the oracle integrates those of other bands itself.
   const auto own = projector.weights();
   const auto weights =
-      source.bands().plan() != nullptr
+      source.bands().weights() != nullptr
           ? std::vector<std::array<double, 3>>(own.begin(), own.end())
           : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &d65);
   VerifyReport report;

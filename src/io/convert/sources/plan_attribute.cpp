@@ -5,20 +5,22 @@
 
 #include <cmath>
 #include <spectile/image/plan_file.hpp>
+#include <spectile/plan/plan.hpp>
 
 #include "src/base/errors.hpp"
 
 namespace spectile::io {
 
 void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts, const Bands& bands) {
-  if (bands.plan() != nullptr) texts.emplace_back(kPlanAttribute, plan_to_json(*bands.plan(), true));
+  if (bands.weights() == nullptr) return;
+  texts.emplace_back(kPlanAttribute, plan_to_json(plan_of_bands(bands), true));
 }
 
 Result<Bands> with_plan(const Imf::Header& header, const Bands& bands, const std::string& path) {
   const auto* const text = header.findTypedAttribute<Imf::StringAttribute>(kPlanAttribute);
   if (text == nullptr) return bands;
   SPECTILE_ASSIGN(const auto plan, parse_plan(text->value(), path + ": attribute " + kPlanAttribute));
-  auto planned = Bands::of_plan(plan);
+  auto planned = planned_bands(plan);
   if (!planned) return make_error(ErrorCode::kBadFile, "{}: {}", path, planned.error().message);
   bool same = planned->count() == bands.count();
   // Names of channels have six decimals.

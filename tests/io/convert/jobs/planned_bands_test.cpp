@@ -13,9 +13,9 @@ namespace {
 
 using testing::HasSubstr;
 
-Plan plan_of(PlanSampling sampling) {
+Plan plan_of(BandSampling sampling) {
   PlannerOptions o;
-  for (const char* name : {"D65", "FL11"}) o.lights.push_back({name, *find_spectrum(name)});
+  for (const char* name : {"D65", "FL11"}) o.lights.push_back(*find_light(name));
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind == "reflectance") o.reflectances.push_back(*named_spectrum(info.name));
   }
@@ -26,7 +26,7 @@ Plan plan_of(PlanSampling sampling) {
 }
 
 const Plan& plan() {
-  static const Plan made = plan_of(PlanSampling::kBands);
+  static const Plan made = plan_of(BandSampling::kAverages);
   return made;
 }
 
@@ -35,7 +35,7 @@ class PlannedBandsImages : public testing::Test {
   void SetUp() override {
     test::Picture picture = test::every_color(70, 33);
     test::write_scanlines(in_, picture);
-    options_.bands = *Bands::of_plan(plan());
+    options_.bands = *planned_bands(plan());
     options_.pixel = PixelType::kFloat;
   }
 

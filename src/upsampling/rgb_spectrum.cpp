@@ -1,6 +1,6 @@
-// UpsampledSpectrum from an RGB colour, by the upsampling methods.
+// Continuous spectra of RGB colours, by the upsampling methods.
 #include <cmath>
-#include <spectile/spectra/spectrum.hpp>
+#include <spectile/upsampling/rgb_spectrum.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/upsampling/method_rows.hpp"
@@ -15,7 +15,7 @@ Result<UpsampledSpectrum> upsampled(const Upsampler& upsampler, Quantity quantit
     return make_error(ErrorCode::kBadArgument, "the upsampler makes {} spectra, not {} ones",
                       to_string(upsampler.quantity()), to_string(quantity));
   }
-  return UpsampledSpectrum::from_rgb(upsampler, rgb);
+  return rgb_spectrum(upsampler, rgb);
 }
 
 Error cannot_make(const Upsampler& upsampler, const std::array<double, 3>& rgb) {
@@ -25,8 +25,7 @@ Error cannot_make(const Upsampler& upsampler, const std::array<double, 3>& rgb) 
 
 }  // namespace
 
-Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler,
-                                                      const std::array<double, 3>& rgb) {
+Result<UpsampledSpectrum> rgb_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb) {
   SPECTILE_ASSIGN(auto lanes, ColorLanes::create(1));
   for (std::size_t k = 0; k < 3; ++k) {
     lanes.at(0, k) = static_cast<float>(rgb[k]);
@@ -34,23 +33,22 @@ Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler
   }
   SPECTILE_ASSIGN(const auto report, gamut_clip(upsampler, lanes.span(), GamutPolicy::kKeep));
   if (report.outside > 0) return cannot_make(upsampler, rgb);
-  UpsampledSpectrum out;
-  out.method_ = upsampler.method();
-  out.quantity_ = upsampler.quantity();
-  out.rgb_ = rgb;
-  out.sigmoid_ = !rows::mixes_bases(upsampler);
   const Bands& bands = upsampler.bands();
-  out.first_nm_ = bands[0].centre_nm;
-  out.last_nm_ = bands[bands.count() - 1].centre_nm;
+  UpsampledSpectrum::Parts out;
+  out.method = to_string(upsampler.method());
+  out.quantity = to_string(upsampler.quantity());
+  out.rgb = rgb;
+  out.first_nm = bands[0].centre_nm;
+  out.last_nm = bands[bands.count() - 1].centre_nm;
   std::vector<double> centres;
   for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
   std::vector<double> values;
-  if (out.sigmoid_) {
+  if (!rows::mixes_bases(upsampler)) {
     SPECTILE_ASSIGN(auto found, CoefficientLanes::create(upsampler, 1));
-    SPECTILE_TRY(spectile::coefficients(upsampler, lanes.view(), found));
-    for (std::size_t k = 0; k < 3; ++k) out.c_[k] = found.c.at(0, k);
-    if (rows::has_scale(upsampler)) out.scale_ = found.scale[0];
-    if (upsampler.quantity() != Quantity::kIlluminant) return out;
+    SPECTILE_TRY(coefficients(upsampler, lanes.view(), found));
+    out.sigmoid = {found.c.at(0, 0), found.c.at(0, 1), found.c.at(0, 2)};
+    if (rows::has_scale(upsampler)) out.scale = found.scale[0];
+    if (upsampler.quantity() != Quantity::kIlluminant) return UpsampledSpectrum::create(std::move(out));
     const float* const own = UpsamplerAccess::sigmoid(upsampler)->table.rows;
     for (std::size_t b = 0; b < bands.count(); ++b) {
       values.push_back(own[b * kernels::kSigmoidRow + kernels::kSigmoidWhite]);
@@ -61,8 +59,8 @@ Result<UpsampledSpectrum> UpsampledSpectrum::from_rgb(const Upsampler& upsampler
     for (std::size_t b = 0; b < bands.count(); ++b) values.push_back(spectra.at(0, b));
   }
   SPECTILE_ASSIGN(auto table, MeasuredSpectrum::from_samples(centres, values));
-  out.table_ = std::make_shared<const MeasuredSpectrum>(std::move(table));
-  return out;
+  out.table = std::make_shared<const MeasuredSpectrum>(std::move(table));
+  return UpsampledSpectrum::create(std::move(out));
 }
 
 Result<UpsampledSpectrum> rgb_albedo_spectrum(const Upsampler& upsampler, const std::array<double, 3>& rgb) {

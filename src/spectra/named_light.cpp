@@ -1,0 +1,51 @@
+// Lights as tables, and comparison of lights on different scales.
+#include <algorithm>
+#include <cmath>
+#include <spectile/spectra/named_light.hpp>
+
+#include "src/base/errors.hpp"
+
+namespace spectile {
+namespace {
+
+/// Spectra that differ by no more than this of their largest value are the same.
+constexpr double kTolerance = 1e-6;
+
+constexpr int kFirstTabulatedNm = 300;
+constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
+constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
+
+}  // namespace
+
+Result<MeasuredSpectrum> tabulated(const Spectrum& light) {
+  if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&light.kind())) {
+    return linear->measured();
+  }
+  std::vector<double> wavelengths;
+  for (int nm = kFirstTabulatedNm; nm <= kLastNm; ++nm) wavelengths.push_back(nm);
+  return MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths));
+}
+
+Result<NamedLight> named_light(std::string name, const Spectrum& light) {
+  SPECTILE_ASSIGN(auto table, tabulated(light));
+  return NamedLight{std::move(name), std::move(table)};
+}
+
+std::vector<double> relative_values(const MeasuredSpectrum& light) {
+  std::vector<double> out;
+  for (int nm = kFirstNm; nm <= kLastNm; ++nm) out.push_back(light.at(nm));
+  double largest = 0;
+  for (const double v : out) largest = std::max(largest, std::abs(v));
+  if (!(largest > 0)) return {};
+  for (double& v : out) v /= largest;
+  return out;
+}
+
+bool same_light(const MeasuredSpectrum& a, const MeasuredSpectrum& b) {
+  const std::vector<double> p = relative_values(a);
+  const std::vector<double> q = relative_values(b);
+  return !p.empty() &&
+         std::ranges::equal(p, q, [](double x, double y) { return std::abs(x - y) <= kTolerance; });
+}
+
+}  // namespace spectile
