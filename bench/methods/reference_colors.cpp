@@ -13,8 +13,8 @@
 namespace spectile::measure {
 namespace {
 
-constexpr std::size_t kGrid = 471;  // 360 to 830 nm
-constexpr double kFirstNm = 360;
+constexpr double kFirstNm = kFirstVisibleNm;
+constexpr auto kGrid = static_cast<std::size_t>(kLastVisibleNm - kFirstVisibleNm) + 1;
 
 /// At every nanometre; the sums below are those of CIE 015's tables.
 template <class F>
@@ -101,19 +101,6 @@ Xyz reference_xyz(const ReferenceLight& light, const std::vector<const Reference
 
 void ErrorList::add(const Xyz& reference, const Xyz& found) {
   values_.push_back(ciede2000(xyz_to_lab(reference, white_), xyz_to_lab(found, white_)));
-}
-
-ColorError ErrorList::summary() const {
-  ColorError out;
-  if (values_.empty()) return out;
-  std::vector<double> sorted = values_;
-  std::sort(sorted.begin(), sorted.end());
-  const auto n = static_cast<double>(sorted.size());
-  out.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / n;
-  out.maximum = sorted.back();
-  // The least that 95 of 100 do not exceed.
-  out.percentile95 = sorted[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
-  return out;
 }
 
 }  // namespace spectile::measure

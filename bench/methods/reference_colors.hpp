@@ -41,7 +41,7 @@ class ErrorList {
  public:
   explicit ErrorList(const Xyz& white) : white_(white) {}
   void add(const Xyz& reference, const Xyz& found);
-  ColorError summary() const;
+  ColorError summary() const { return summarize(values_); }
 
  private:
   Xyz white_;

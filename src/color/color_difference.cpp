@@ -4,6 +4,7 @@
 #include <numbers>
 #include <spectile/color/color_difference.hpp>
 
+#include "src/base/statistics.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 
@@ -148,6 +149,16 @@ Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double
     }
   });
   return {};
+}
+
+ColorError summarize(std::vector<double> differences) {
+  if (differences.empty()) return {};
+  std::sort(differences.begin(), differences.end());
+  ColorError out;
+  for (const double d : differences) out.mean += d / static_cast<double>(differences.size());
+  out.percentile95 = percentile(differences, 95);
+  out.maximum = differences.back();
+  return out;
 }
 
 }  // namespace spectile

@@ -52,8 +52,8 @@ Result<ColorError> plan_error(const Plan& plan, const NamedLight& light,
   }
   SPECTILE_ASSIGN(auto table, plan::tabulate(reflectances));
   const SampleSet samples = evaluation_samples(std::move(table), bounces, kEvaluationProducts);
-  return plan::summary(plan::differences(plan::reference_xyz(samples, integrals),
-                                         plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
+  return summarize(plan::differences(plan::reference_xyz(samples, integrals),
+                                     plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
 }
 
 Result<ColorError> even_bands_error(const Bands& bands, const NamedLight& light,
@@ -90,8 +90,8 @@ Result<ColorError> even_bands_error(const Bands& bands, const NamedLight& light,
   parameters.sensor /= sum;
   SPECTILE_ASSIGN(auto table, plan::tabulate(reflectances));
   const SampleSet samples = evaluation_samples(std::move(table), bounces, kEvaluationProducts);
-  return plan::summary(plan::differences(plan::reference_xyz(samples, integrals),
-                                         plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
+  return summarize(plan::differences(plan::reference_xyz(samples, integrals),
+                                     plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
 }
 
 }  // namespace spectile

@@ -199,7 +199,7 @@ Plan assemble_plan(const Parameters& n, const PlannerOptions& o, const HeldOutEr
   for (std::size_t l = 0; l < held_out.size(); ++l) {
     for (std::size_t b = 0; b < held_out[l].size(); ++b) {
       if (held_out[l][b].empty()) continue;
-      out.report.errors.push_back({o.lights[l].name, static_cast<int>(b) + 1, plan::summary(held_out[l][b])});
+      out.report.errors.push_back({o.lights[l].name, static_cast<int>(b) + 1, summarize(held_out[l][b])});
     }
   }
   return out;

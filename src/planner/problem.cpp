@@ -133,16 +133,6 @@ std::vector<double> differences(const Matrix& reference, const Matrix& got, cons
   return out;
 }
 
-ColorError summary(std::vector<double> d) {
-  if (d.empty()) return {};
-  std::sort(d.begin(), d.end());
-  ColorError out;
-  for (const double v : d) out.mean += v / static_cast<double>(d.size());
-  out.percentile95 = d[std::min(d.size() - 1, d.size() * 95 / 100)];
-  out.maximum = d.back();
-  return out;
-}
-
 namespace {
 
 /// Reference colours of the samples, and the squared metric at each.

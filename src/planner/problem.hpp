@@ -74,8 +74,6 @@ Eigen::Vector3d white_xyz(const Matrix& integrals);
 std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& white);
 /// Colour differences between columns of XYZ. Shapes: [3][colours].
 std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white);
-/// Mean, 95th percentile and maximum.
-ColorError summary(std::vector<double> differences);
 
 /// Products that an error is evaluated over.
 inline constexpr std::size_t kEvaluationProducts = 2000;

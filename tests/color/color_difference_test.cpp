@@ -335,5 +335,17 @@ TEST(Ciede2000Batch, OtherLanesOrABadWhiteAreAnError) {
   }
 }
 
+TEST(ColorError, ThePercentileIsTheSmallestValueThat95Of100DoNotExceed) {
+  for (const std::size_t count : {1U, 19U, 20U, 21U, 40U, 100U, 101U}) {
+    std::vector<double> values;
+    for (std::size_t i = count; i > 0; --i) values.push_back(static_cast<double>(i));
+    const ColorError e = summarize(values);
+    EXPECT_EQ(e.percentile95, std::ceil(static_cast<double>(count) * 95 / 100)) << count;
+    EXPECT_EQ(e.maximum, static_cast<double>(count));
+    EXPECT_NEAR(e.mean, (static_cast<double>(count) + 1) / 2, 1e-12);
+  }
+  EXPECT_EQ(summarize({}).maximum, 0);
+}
+
 }  // namespace
 }  // namespace spectile::test

@@ -4,6 +4,7 @@
 #include <array>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/result.hpp>
+#include <vector>
 
 namespace spectile {
 
@@ -49,11 +50,14 @@ double ciede2000(const Lab& reference, const Lab& sample);
 Result<void> ciede2000(ColorView xyz_a, ColorView xyz_b, const std::array<double, 3>& white,
                        LanesSpan difference, const Execution& execution = {});
 
-/// Colour differences against a reference, summarized. Units: CIEDE2000.
+/// Statistics of colour differences against a reference. Units: CIEDE2000.
 struct ColorError {
   double mean = 0;
-  double percentile95 = 0;
+  double percentile95 = 0;  ///< smallest that at least 95 of 100 differences do not exceed
   double maximum = 0;
 };
+
+/// Mean, 95th percentile and maximum of colour differences; zeros for none.
+ColorError summarize(std::vector<double> differences);
 
 }  // namespace spectile
