@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <spectile/plan/plan.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/upsampling/rgb_spectrum.hpp>
 

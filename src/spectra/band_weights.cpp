@@ -38,9 +38,9 @@ Result<Bands> Bands::with_weights(BandWeights weights, BandSampling sampling,
   }
   if (!fits) {
     return make_error(ErrorCode::kBadArgument,
-                      "{} bands take a sensor weight each, and lights with an emission value each, not {} "
-                      "weights and {} lights",
-                      count(), weights.sensor.size(), weights.lights.size());
+                      "{} sensor weights and {} lights for {} bands are not whole: each band takes a sensor "
+                      "weight, and an emission value of every light",
+                      weights.sensor.size(), weights.lights.size(), count());
   }
   Bands out = *this;
   out.weighting_ = std::make_shared<const Weighting>(
