@@ -240,7 +240,7 @@ TEST(BenchmarkPage, CountsAWorstBeyondItsBoundOrNoNumberAsBeyond) {
   EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond</span>"), 3U);
 }
 
-TEST(BenchmarkPage, HasEveryRepresentationLimitScalingAdviceAndWarning) {
+TEST(BenchmarkPage, HasEveryRepresentationLimitBaselineScalingAdviceAndWarning) {
   const std::string representations =
       part(full_page(), "<section id=\"representations\">", "<section id=\"operations\">");
   for (const RepresentationSpeed& r : full().representations) {
@@ -253,6 +253,12 @@ TEST(BenchmarkPage, HasEveryRepresentationLimitScalingAdviceAndWarning) {
   for (const MachineLimit& l : full().limits) {
     EXPECT_THAT(limits, HasSubstr(fmt::format(">{}</th><td>{}</td><td>{}</td>", l.isa, l.threads,
                                               report::with_prefix(l.load, "B/s"))));
+  }
+  const std::string baseline = part(full_page(), "<section id=\"baseline\">", "</section>");
+  for (const BaselineSpeed& b : full().baseline) {
+    EXPECT_THAT(baseline,
+                HasSubstr(fmt::format(">{}</th><td>{}</td><td>{}</td>", b.name, report::number(b.nanoseconds),
+                                      report::number(b.baseline_nanoseconds))));
   }
   const std::string threads = part(full_page(), "<section id=\"threads\">", "</section>");
   for (const ThreadScaling& s : full().scaling) {
