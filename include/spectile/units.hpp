@@ -25,7 +25,7 @@ constexpr Unit operator*(const Unit& a, const Unit& b) noexcept {
   return {a.watt + b.watt,           a.lumen + b.lumen,         a.second + b.second, a.metre + b.metre,
           a.steradian + b.steradian, a.nanometre + b.nanometre, a.kelvin + b.kelvin};
 }
-/// The unit of a quotient.
+/// The unit of a ratio.
 constexpr Unit operator/(const Unit& a, const Unit& b) noexcept {
   return {a.watt - b.watt,           a.lumen - b.lumen,         a.second - b.second, a.metre - b.metre,
           a.steradian - b.steradian, a.nanometre - b.nanometre, a.kelvin - b.kelvin};
@@ -34,7 +34,7 @@ constexpr Unit operator/(const Unit& a, const Unit& b) noexcept {
 /// "W m^-2 sr^-1 nm^-1"; "1" where all powers are 0.
 std::string to_text(const Unit& unit);
 
-/// A number in a unit. Sums, differences and comparisons are of one unit only; products and quotients have
+/// A number in a unit. Sums, differences and comparisons are of one unit only; products and ratios have
 /// the unit that comes out, and are plain numbers where none is left. Numbers are doubles as IEEE 754 says:
 /// one rounding per operation, a zero divisor, NaN and infinities go through. Nothing converts on its own:
 /// from a number by the constructor, to one by value().
@@ -116,7 +116,7 @@ std::string to_text(PhysicalQuantity<kUnit> quantity) {
   return detail::to_text(quantity.value(), kUnit);
 }
 
-/// The unit of a product of quantities, and of a quotient, as a type.
+/// The unit of a product of quantities, and of a ratio, as a type.
 template <class A, class B>
 using ProductOf = decltype(A() * B());
 template <class A, class B>
