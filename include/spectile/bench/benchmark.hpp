@@ -6,6 +6,7 @@
 #include <functional>
 #include <spectile/color/color_difference.hpp>
 #include <spectile/result.hpp>
+#include <spectile/spectra/spectrum.hpp>
 #include <string>
 #include <vector>
 
