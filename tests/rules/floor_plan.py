@@ -82,7 +82,7 @@ SIZE_EXEMPT = "src/data src/data/*"  # published tables, each as long as its sou
 PENDING_EDGES = set()
 PENDING_FILES = {
     "OpenEXR": "src/io/*",
-    "lines": "kernels/abi.hpp kernels/sigmoid_search.inl src/io/text/plan_json.cpp",
+    "lines": "kernels/abi.hpp kernels/sigmoid_search.inl",
     "files": "src/io/exr kernels",
 }
 

@@ -1,14 +1,13 @@
 // Plans as JSON text.
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <spectile/image/plan_file.hpp>
 #include <stdexcept>
 
-#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
+#include "src/io/text/plan_flaw.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile {
@@ -18,11 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
-constexpr std::size_t kMaxWavelengths = 4096;
-constexpr std::size_t kMaxLights = 256;
-constexpr double kFirstNm = 100;
-constexpr double kLastNm = 10000;
-// What a plan needs is well within; text beyond it is built to use up memory or time.
+// Plans are well within; text beyond these is built to use up memory or time.
 constexpr int kDeepest = 16;
 constexpr std::size_t kMaxValues = 4'000'000;
 constexpr std::size_t kMaxKeys = 1024;  // of one object, whose keys are searched one by one
@@ -66,63 +61,6 @@ Json to_json(const PlanReport& report) {
     out["even_bands"][e.bands][e.light][std::to_string(e.bounces)] = to_json(e.error);
   }
   return out;
-}
-
-// --- checks -----------------------------------------------------------------------------------------------
-
-/// The first flaw of a plan, in words; empty for none.
-std::string flaw(const Plan& plan) {
-  const std::size_t count = plan.wavelengths_nm.size();
-  if (count == 0 || count > kMaxWavelengths) {
-    return fmt::format("{} wavelengths are not from 1 to {}", count, kMaxWavelengths);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const double nm = plan.wavelengths_nm[k];
-    if (!(nm >= kFirstNm && nm <= kLastNm)) {
-      return fmt::format("a wavelength of {} nm is not from {} to {} nm", nm, kFirstNm, kLastNm);
-    }
-    if (k > 0 && !(nm > plan.wavelengths_nm[k - 1])) {
-      return fmt::format("the wavelengths do not ascend: {} nm comes after {} nm", nm,
-                         plan.wavelengths_nm[k - 1]);
-    }
-  }
-  if (!plan.bands.empty()) {
-    if (plan.bands.size() != count) {
-      return fmt::format("there are {} bands for {} wavelengths", plan.bands.size(), count);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      if (plan.bands[k].centre_nm != plan.wavelengths_nm[k]) {
-        return fmt::format("a band around {} nm belongs to the wavelength {} nm", plan.bands[k].centre_nm,
-                           plan.wavelengths_nm[k]);
-      }
-    }
-    if (const auto bands = Bands::from_list(plan.bands); !bands) return bands.error().message;
-  }
-  if (plan.weights.sensor.size() != count) {
-    return fmt::format("the sensor has {} weights for {} wavelengths", plan.weights.sensor.size(), count);
-  }
-  for (const auto& weights : plan.weights.sensor) {
-    for (const double weight : weights) {
-      if (!std::isfinite(weight)) return fmt::format("a sensor weight is {}", weight);
-    }
-  }
-  if (plan.weights.lights.empty() || plan.weights.lights.size() > kMaxLights) {
-    return fmt::format("{} lights are not from 1 to {}", plan.weights.lights.size(), kMaxLights);
-  }
-  std::set<std::string> names;
-  for (const BandLight& light : plan.weights.lights) {
-    if (!names.insert(light.name).second)
-      return fmt::format("two lights are called {}", io::quoted(light.name));
-    if (light.emission.size() != count) {
-      return fmt::format("the light {} has {} emission values for {} wavelengths", io::quoted(light.name),
-                         light.emission.size(), count);
-    }
-    for (const double value : light.emission) {
-      if (!std::isfinite(value))
-        return fmt::format("an emission value of {} is {}", io::quoted(light.name), value);
-    }
-  }
-  return {};
 }
 
 // --- from JSON --------------------------------------------------------------------------------------------
@@ -194,7 +132,7 @@ std::vector<CrossValidatedError> errors_from(const Json& illuminants, const std:
     for (const auto& [text, error] : bounces.items()) {
       const auto number = io::number_in(text);
       if (!number || !(*number >= 1 && *number <= 1000) || std::trunc(*number) != *number) {
-        throw Refused(fmt::format("{} bounces of {} are no whole number from 1", io::quoted(text), where));
+        throw Refused(fmt::format("{} bounces of {} are no integer from 1", io::quoted(text), where));
       }
       if (!known.insert(static_cast<int>(*number)).second) {
         throw Refused(fmt::format("{} under {} is given twice for {} bounces", where, io::quoted(light),
@@ -212,7 +150,7 @@ BandLight light_from(const Json& json) {
   if (!name.is_string()) throw Refused("the name of a light is no text");
   const auto text = name.get<std::string>();
   const std::string named = "the light " + io::quoted(text);
-  std::vector<double> emission = numbers(json, "emission", named, kMaxWavelengths);
+  std::vector<double> emission = numbers(json, "emission", named, io::kMaxPlanWavelengths);
   if (!json.contains("spectrum")) {
     auto known = illuminant(text);
     if (!known) throw Refused(named + " has no spectrum, and no illuminant is called so");
@@ -245,11 +183,11 @@ std::vector<Band> bands_from(const Json& json, const std::vector<double>& wavele
 Plan plan_from(const Json& json) {
   const std::string where = "the plan";
   Plan plan;
-  plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, kMaxWavelengths);
+  plan.wavelengths_nm = numbers(json, "wavelengths_nm", where, io::kMaxPlanWavelengths);
   plan.weights.sensor.resize(plan.wavelengths_nm.size());
   const Json& sensor = member(json, "sensor", where);
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto weights = numbers(sensor, kSensorNames[c], "the sensor", kMaxWavelengths);
+    const auto weights = numbers(sensor, kSensorNames[c], "the sensor", io::kMaxPlanWavelengths);
     if (weights.size() != plan.wavelengths_nm.size()) {
       throw Refused(fmt::format("the sensor has {} weights for {}, but there are {} wavelengths",
                                 weights.size(), kSensorNames[c], plan.wavelengths_nm.size()));
@@ -259,8 +197,8 @@ Plan plan_from(const Json& json) {
   if (json.contains("bands_nm")) plan.bands = bands_from(json["bands_nm"], plan.wavelengths_nm);
   const Json& lights = member(json, "illuminants", where);
   if (!lights.is_array()) throw Refused("\"illuminants\" is no list");
-  if (lights.size() > kMaxLights) {
-    throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), kMaxLights));
+  if (lights.size() > io::kMaxPlanLights) {
+    throw Refused(fmt::format("{} lights are not from 1 to {}", lights.size(), io::kMaxPlanLights));
   }
   for (const Json& light : lights) plan.weights.lights.push_back(light_from(light));
   const Json& observer = member(json, "observer", where);
@@ -324,7 +262,7 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source) {
   if (json.size() > kMaxBytes) return refuse("is larger than 64 MiB, which no plan is");
   try {
     Plan plan = plan_from(Json::parse(json, Guard()));
-    if (const std::string what = flaw(plan); !what.empty()) return refuse(what);
+    if (const std::string what = io::plan_flaw(plan); !what.empty()) return refuse(what);
     return plan;
   } catch (const Refused& refused) {
     return refuse(refused.what());
@@ -333,31 +271,6 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source) {
   } catch (const nlohmann::json::exception& error) {
     return refuse("is no plan: " + json_error(error.what()));
   }
-}
-
-Result<Plan> load_plan(const std::string& path) {
-  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
-  return parse_plan(*file.text, path);
-}
-
-Result<Bands> find_bands(const std::string& text) {
-  auto bands = Bands::parse(text);
-  if (bands) return bands;
-  const bool like_a_path = text.find('/') != std::string::npos || text.ends_with(".json");
-  std::error_code error;
-  if (!like_a_path && !std::filesystem::exists(text, error)) return bands;
-  SPECTILE_ASSIGN(const auto plan, load_plan(text));
-  return planned_bands(plan);
-}
-
-Result<void> save_plan(const Plan& plan, const std::string& path) {
-  if (const std::string what = flaw(plan); !what.empty()) {
-    return make_error(ErrorCode::kBadArgument, "{}: not written: {}", path, what);
-  }
-  const std::string text = plan_to_json(plan);
-  SPECTILE_ASSIGN(auto file, io::AtomicFile::create(path));
-  SPECTILE_TRY(file.write_at(text.data(), text.size(), 0));
-  return file.commit();
 }
 
 }  // namespace spectile

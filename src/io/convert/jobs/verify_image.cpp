@@ -59,7 +59,7 @@ struct UpsamplingOracle {
   double largest_basis = 0;
 
   /// Largest error of a colour's samples, over the largest possible one; for the sigmoid, of the RGB that its
-  /// samples come back as. Nothing where the method promises nothing.
+  /// samples come back as. None where the method states no bound.
   std::optional<double> difference(const std::array<double, 3>& rgb, std::span<const float> samples) const {
     const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
     if (space) {
