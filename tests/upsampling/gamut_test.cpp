@@ -287,5 +287,19 @@ TEST(Gamut, SamplesThatAreNotAlignedAreAnError) {
   EXPECT_EQ(code_of(gamut_clip(upsampler, span)), code(ErrorCode::kBadArgument));
 }
 
+TEST(Gamut, AnErrorCountsTheColoursOutsideAndLeavesTheBatch) {
+  for (const Method method : {Method::kSmits, Method::kSigmoid}) {
+    const auto upsampler = upsampler_of(method);
+    auto rgb = lanes_of({{0.5F, 0.5F, 0.5F}, {-2, 1, 0}, {-2, 0.5F, 0}});
+    const auto before = copy_of(rgb);
+    const auto report = gamut_clip(upsampler, rgb.span(), GamutPolicy::kError);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().message, "2 colours of the batch are out of gamut, the first in lane 1");
+    for (std::size_t i = 0; i < rgb.lanes(); ++i) EXPECT_TRUE(same_color(rgb, before, i)) << i;
+    auto inside = lanes_of({{0.5F, 0.5F, 0.5F}});
+    EXPECT_TRUE(gamut_clip(upsampler, inside.span(), GamutPolicy::kError));
+  }
+}
+
 }  // namespace
 }  // namespace spectile::test
