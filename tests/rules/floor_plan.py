@@ -72,7 +72,7 @@ KERNEL_HEADERS = "cmath cstddef cstdint cstring xsimd/xsimd.hpp immintrin.h arm_
 # --- what prints or ends the process: programs, and Result where an error is taken for a value ------------------------
 PRINTS = re.compile(r"\b(v?f?printf|f?puts|putchar|std::(cout|cerr|clog)|fmt::print|(std::)?(abort|_?exit|quick_exit|terminate))"
                     r"\b\s*(\(|<<)")
-MAY_PRINT = "src/cli/* bench/exr_only.cpp include/spectile/result.hpp"
+MAY_PRINT = "src/cli/* bench/exr_only.cpp src/base/result.cpp"
 
 MAX_FILES = 20
 MAX_LINES = 350

@@ -200,9 +200,9 @@ class SettingsUpToDate : public testing::Test {
     const timespec times[2] = {now, now};
     ASSERT_EQ(::utimensat(AT_FDCWD, path.c_str(), times, 0), 0);
   }
-  bool fresh(const std::string& output, std::vector<std::string> made_from,
+  bool fresh(const std::string& output, std::vector<std::string> dependencies,
              const std::string& settings) const {
-    return up_to_date(output, made_from, settings);
+    return up_to_date(output, dependencies, settings);
   }
   test::TempFolder folder_;
   const std::string input_ = folder_ / "in.exr";
