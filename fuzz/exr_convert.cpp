@@ -18,7 +18,7 @@ constexpr std::array kKinds = {CompressionKind::kNone, CompressionKind::kRle,  C
 
 void choose(fuzz::Choices& choices, ImageOptions& options) {
   options.threads = 1;
-  options.pixel = choices.one_in(2) ? PixelType::kFloat : PixelType::kHalf;
+  options.pixel = choices.one_in(2) ? SampleType::kFloat : SampleType::kHalf;
   options.compression.kind = kKinds[choices.below(kKinds.size())];
   options.compression.level = -1;
   options.nonfinite = choices.one_in(4) ? NonFinite::kStop : NonFinite::kZero;
@@ -29,7 +29,8 @@ void choose(fuzz::Choices& choices, ImageOptions& options) {
   if (choices.one_in(4)) {
     const int x = static_cast<int>(choices.below(8)) - 2;
     const int y = static_cast<int>(choices.below(8)) - 2;
-    options.region = {x, y, x + static_cast<int>(choices.below(8)), y + static_cast<int>(choices.below(8))};
+    options.region = PixelWindow::inclusive(x, y, x + static_cast<int>(choices.below(8)),
+                                            y + static_cast<int>(choices.below(8)));
   }
 }
 

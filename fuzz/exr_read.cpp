@@ -38,7 +38,7 @@ void texture(const std::string& path) {
   const double last = centres.back().centre_nm;
   std::vector<double> nm = {first / 2, first, 0.5 * (first + last), last, 2 * last};
   nm.erase(std::unique(nm.begin(), nm.end()), nm.end());
-  const Region corner = {0, opened->height() - 1, opened->width(), 1};
+  const PixelWindow corner = {0, opened->height() - 1, opened->width(), opened->height()};
   const auto once = opened->evaluate(corner, nm);
   if (!fuzz::is_value(once)) return;
   fuzz::require(once->lanes() == static_cast<std::size_t>(opened->width()), "a region has a lane a pixel");

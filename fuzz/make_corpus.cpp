@@ -214,7 +214,7 @@ void upsampled_images(const std::string& folder) {
   };
   write("spectral.exr");
   options.quantity = Quantity::kIlluminant;
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   options.tile = {5, 5};
   write("spectral_tiles.exr");
   options.tile.reset();

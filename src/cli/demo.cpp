@@ -105,7 +105,7 @@ int run(const Arguments& a) {
   ProjectImageOptions down;
   down.threads = a.common.threads;
   down.progress = go_on;
-  down.pixel = PixelType::kFloat;
+  down.pixel = SampleType::kFloat;
   const auto projected = project_image(spectral_path, back_path, down);
   if (!projected) return complain(projected.error());
   const auto verified = verify_image(chart_path, up);

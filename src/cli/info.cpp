@@ -13,6 +13,11 @@
 namespace spectile::cli {
 namespace {
 
+/// The first and the last pixel, both included.
+std::array<int, 4> corners(const PixelWindow& window) {
+  return {window.x0, window.y0, window.x1 - 1, window.y1 - 1};
+}
+
 struct Arguments {
   Common common;
   std::string input;
@@ -23,8 +28,8 @@ nlohmann::json to_json(const std::string& path, const ImageInfo& info) {
   nlohmann::json out = {{"file", path},
                         {"width", info.width},
                         {"height", info.height},
-                        {"data_window", info.data_window},
-                        {"display_window", info.display_window},
+                        {"data_window", corners(info.data_window)},
+                        {"display_window", corners(info.display_window)},
                         {"parts", info.parts},
                         {"tiled", info.tiled},
                         {"compression", info.compression},
@@ -59,8 +64,8 @@ void print_channel(const ChannelInfo& c) {
 void print_info(const std::string& path, const ImageInfo& info) {
   fmt::print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "",
              info.compression, info.parts > 1 ? fmt::format(", first of {} parts", info.parts) : "");
-  const auto& d = info.data_window;
-  const auto& w = info.display_window;
+  const auto d = corners(info.data_window);
+  const auto w = corners(info.display_window);
   if (d != w) {
     fmt::print("data window ({},{}) to ({},{}), display window ({},{}) to ({},{})\n", d[0], d[1], d[2], d[3],
                w[0], w[1], w[2], w[3]);

@@ -21,7 +21,7 @@ struct Arguments {
 
 int run(const Arguments& a) {
   ProjectImageOptions options;
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   if (const int bad = a.image.apply(options)) return bad;
   options.target = a.to;
   options.observer = a.observer;

@@ -8,7 +8,8 @@
 namespace spectile::cli {
 namespace {
 
-constexpr Choice<Way> kPaths[] = {{"direct", Way::kDirect}, {"spectra", Way::kSpectra}};
+constexpr Choice<RelightMode> kModes[] = {{"direct", RelightMode::kDirect},
+                                          {"spectra", RelightMode::kSpectra}};
 
 struct Arguments {
   ImageCommand image;
@@ -17,7 +18,7 @@ struct Arguments {
   Observer observer = Observer::kCie1931;
   ColorTarget to = ColorTarget::kSrgb;
   Adaptation adapt = Adaptation::kNone;
-  Way path = Way::kDirect;
+  RelightMode mode = RelightMode::kDirect;
 };
 
 int run(const Arguments& a) {
@@ -29,7 +30,7 @@ int run(const Arguments& a) {
   options.target = a.to;
   options.seen_by = a.observer;
   options.adaptation = a.adapt;
-  options.way = a.path;
+  options.mode = a.mode;
   return run_jobs(a.image, settings_text(options),
                   files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}),
                   options.progress,
@@ -49,7 +50,7 @@ void add_relight(CLI::App& app, int& exit) {
       ->group(kColorGroup);
   add_observer_option(*command, a->observer);
   add_target_options(*command, a->to, a->adapt);
-  add_choice(*command, "--way", a->path, kPaths,
+  add_choice(*command, "--way", a->mode, kModes,
              "direct, or spectra: spectrum by spectrum, to check the former")
       ->group(kColorGroup);
   add_method_options(*command, a->method);

@@ -6,7 +6,7 @@
 #include <set>
 #include <spectile/plan/plan.hpp>
 
-#include "src/base/errors.hpp"
+#include "src/base/out_of_memory.hpp"
 #include "src/planner/problem.hpp"
 
 namespace spectile {
@@ -254,12 +254,8 @@ Result<Plan> make(const PlannerOptions& o) {
 }  // namespace
 
 Result<Plan> make_plan(const PlannerOptions& options) {
-  try {
-    return make(options);
-  } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kOutOfMemory, "no memory to plan for {} reflectances",
+  return guard_memory([&] { return make(options); }, "no memory to plan for {} reflectances",
                       options.reflectances.size());
-  }
 }
 
 }  // namespace spectile

@@ -5,7 +5,7 @@
 #include <new>
 #include <spectile/scene/procedural_scene.hpp>
 
-#include "src/base/errors.hpp"
+#include "src/base/out_of_memory.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -74,11 +74,8 @@ Result<void> simulate(const ProceduralScene& scene, const SceneSampling& samplin
   Result<void> result;
   tiles::for_blocks(count, {execution.threads, 1}, [&](std::size_t begin, std::size_t n) {
     for (std::size_t i = begin; i < begin + n; ++i) {
-      Result<void> done = make_error(ErrorCode::kOutOfMemory, "no memory to draw samples");
-      try {
-        done = run_step(scene, sampling, film, steps, first + i);
-      } catch (const std::bad_alloc&) {  // the error that stands there already
-      }
+      const auto step = [&] { return run_step(scene, sampling, film, steps, first + i); };
+      const Result<void> done = guard_memory(step, "no memory to draw samples");
       if (done) continue;
       const std::scoped_lock lock(mutex);
       if (result) result = done;

@@ -4,7 +4,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "kernels/abi.hpp"
-#include "src/base/errors.hpp"
+#include "src/base/enum_names.hpp"
 #include "src/color/working_space.hpp"
 #include "src/data/tables.hpp"
 #include "src/spectra/band_weights.hpp"
@@ -14,21 +14,15 @@
 namespace spectile {
 namespace {
 
-constexpr struct {
-  Method method;
-  const char* name;
-} kMethods[] = {{Method::kSmits, "smits"},
-                {Method::kSmits1999, "smits1999"},
-                {Method::kSmitsExact, "smits-exact"},
-                {Method::kMallett, "mallett"},
-                {Method::kSigmoid, "sigmoid"}};
+constexpr EnumName<Method> kMethods[] = {{Method::kSmits, "smits"},
+                                         {Method::kSmits1999, "smits1999"},
+                                         {Method::kSmitsExact, "smits-exact"},
+                                         {Method::kMallett, "mallett"},
+                                         {Method::kSigmoid, "sigmoid"}};
 
-constexpr struct {
-  Quantity quantity;
-  const char* name;
-} kQuantities[] = {{Quantity::kReflectance, "reflectance"},
-                   {Quantity::kUnbounded, "unbounded"},
-                   {Quantity::kIlluminant, "illuminant"}};
+constexpr EnumName<Quantity> kQuantities[] = {{Quantity::kReflectance, "reflectance"},
+                                              {Quantity::kUnbounded, "unbounded"},
+                                              {Quantity::kIlluminant, "illuminant"}};
 
 /// D65 scaled so that its luminance equals that of a spectrum that is 1 everywhere.
 MeasuredSpectrum d65_of_luminance_one() {
@@ -110,21 +104,11 @@ Result<BasisTable> exact_basis(Method method, Quantity quantity, const Bands& ba
 }  // namespace
 
 Result<Method> parse_method(std::string_view name) {
-  std::string known;
-  for (const auto& method : kMethods) {
-    if (name == method.name) return method.method;
-    known += (known.empty() ? "" : ", ") + std::string(method.name);
-  }
-  return make_error(ErrorCode::kUnknownName, "method \"{}\" is unknown; there are {}", name, known);
+  return parse_enum(kMethods, "method", name);
 }
 
 Result<Quantity> parse_quantity(std::string_view name) {
-  std::string known;
-  for (const auto& quantity : kQuantities) {
-    if (name == quantity.name) return quantity.quantity;
-    known += (known.empty() ? "" : ", ") + std::string(quantity.name);
-  }
-  return make_error(ErrorCode::kUnknownName, "quantity \"{}\" is unknown; there are {}", name, known);
+  return parse_enum(kQuantities, "quantity", name);
 }
 
 std::vector<std::string> method_names() {
@@ -134,11 +118,11 @@ std::vector<std::string> method_names() {
 }
 
 std::string_view to_string(Method method) {
-  return kMethods[static_cast<std::size_t>(method)].name;
+  return enum_name(kMethods, method);
 }
 
 std::string_view to_string(Quantity quantity) {
-  return kQuantities[static_cast<std::size_t>(quantity)].name;
+  return enum_name(kQuantities, quantity);
 }
 
 Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Bands& bands,

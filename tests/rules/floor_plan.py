@@ -81,9 +81,8 @@ SIZE_EXEMPT = "src/data src/data/*"  # published tables, each as long as its sou
 # --- not yet in order ------------------------------------------------------------------------------------------------------
 PENDING_EDGES = set()
 PENDING_FILES = {
-    "OpenEXR": "src/io/*",
     "lines": "kernels/abi.hpp kernels/sigmoid_search.inl",
-    "files": "src/io/exr kernels",
+    "files": "kernels",
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -18,6 +18,7 @@
 #include <spectile/color/sensor.hpp>
 #include <spectile/film/pixel_filter.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/pixel_window.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <string>
@@ -62,14 +63,6 @@ enum class PixelStatistics {
   kNone,
   kCounts,    ///< how many reached it
   kVariance,  ///< also the moments that the variance of its luminance needs
-};
-
-/// A rectangle of pixels, first inclusive, last exclusive.
-struct PixelWindow {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const noexcept { return x1 - x0; }
-  int height() const noexcept { return y1 - y0; }
-  friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
 };
 
 /// A sensor and how files and reports call it.

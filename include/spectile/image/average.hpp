@@ -14,8 +14,8 @@ namespace spectile {
 /// channel's average at its pixel, and the others' weights count for all; where every image's is, 0 is
 /// written.
 struct AverageOptions : ImageOptions {
-  std::vector<double> weights;      ///< one an image, from 0 on; empty: all are equal
-  std::optional<PixelType> stored;  ///< the widest type of the images' where none; `pixel` is not looked at
+  std::vector<double> weights;       ///< one an image, from 0 on; empty: all are equal
+  std::optional<SampleType> stored;  ///< the widest type of the images' where none; `pixel` does not matter
 };
 
 /// Averages images of one frame, channel by channel: sum of weight * sample over sum of weights. The sums are

@@ -9,7 +9,7 @@
 
 namespace spectile {
 
-/// What writing a film did.
+/// Report of a film that was written.
 struct FilmFileReport {
   std::uint64_t bytes_written = 0;
   double seconds = 0;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/color/rgb_space.hpp>
+#include <spectile/pixel_window.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/named_light.hpp>
@@ -21,8 +22,10 @@
 
 namespace spectile {
 
-/// Type of the samples written.
-enum class PixelType { kHalf, kFloat };
+/// Type of an image's samples. Spectra and colours are written as kHalf or kFloat.
+enum class SampleType { kHalf, kFloat, kUint32 };
+/// "half", "float" or "uint".
+std::string_view to_string(SampleType type);
 
 /// OpenEXR's compression methods.
 enum class CompressionKind { kNone, kRle, kZips, kZip, kPiz, kPxr24, kB44, kB44a, kDwaa, kDwab };
@@ -39,14 +42,14 @@ struct Compression {
   std::string description() const;
 };
 
-/// What to do with pixels that hold NaN, infinities, or components beyond 2^124, whose spectra could
+/// Policy for pixels that hold NaN, infinities, or components beyond 2^124, whose spectra could
 /// overflow.
 enum class NonFinite {
   kStop,  ///< an error that names the first of them and their number
   kZero,  ///< the whole pixel becomes black, and is counted
 };
 
-/// Treatment of components of the input below 0, in the input's own RGB.
+/// Policy for components of the input below 0, in the input's own RGB.
 enum class NegativeInput {
   kGamut,  ///< colours outside the method's gamut: see GamutPolicy
   kClip,   ///< set to 0, and their pixels are counted
@@ -65,14 +68,14 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Options of every conversion.
 struct ImageOptions {
-  PixelType pixel = PixelType::kHalf;
+  SampleType pixel = SampleType::kHalf;
   Compression compression;
   NonFinite nonfinite = NonFinite::kStop;
-  /// The part of the input to convert: x0, y0, x1, y1, inclusive, in the coordinates of its data window,
-  /// which is then the output's; all of it where none. No more is decoded than the lines, or tiles, that it
-  /// touches. Limited to the data window, which the report notes; kBadArgument where it lies outside. For
+  /// The part of the input to convert, in the coordinates of its data window, which is then the output's; all
+  /// of it where none. No more is decoded than the lines, or tiles, that it touches. Clamped to the data
+  /// window, which the report notes; kBadArgument where it lies outside. For
   /// functions that read one image.
-  std::optional<std::array<int, 4>> region;
+  std::optional<PixelWindow> region;
   int threads = 0;                 ///< 0: every core that the process may use
   std::size_t tile_lanes = 65536;  ///< most pixels a kernel call works on, 64 or more
   /// upsample_image: whether what is black, masked, constant or repeated is found and not computed again. The
@@ -93,7 +96,7 @@ struct MethodOptions : ImageOptions {
   Method method = kDefaultMethod;
   Quantity quantity = Quantity::kReflectance;
   Bands bands;
-  std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the white reflector; D65 where none
+  std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
   std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
   NegativeInput negative = NegativeInput::kGamut;
@@ -101,7 +104,7 @@ struct MethodOptions : ImageOptions {
   std::string layer;  ///< layer, view or part to take R, G, B from; empty for the plain ones
 };
 
-/// What upsample_image writes.
+/// Contents of the output of upsample_image().
 enum class Store {
   kSpectra,       ///< a channel for each band
   kCoefficients,  ///< the method's three (or four) coefficients, which expand_image() turns into spectra
@@ -123,13 +126,13 @@ struct UpsampleImageOptions : MethodOptions {
   std::string mask;
 };
 
-/// What project_image writes.
+/// Colour that project_image() writes.
 enum class ColorTarget { kSrgb, kXyz, kLuminance };
 
-/// How relight_image comes from RGB to colour under a light.
-enum class Way {
+/// Computation of relight_image().
+enum class RelightMode {
   kDirect,   ///< without spectra: a table of 3 x 7 for mixtures of bases, sums in registers for the sigmoid
-  kSpectra,  ///< the long way, spectrum by spectrum, to check the direct one
+  kSpectra,  ///< spectrum by spectrum, to check the direct one
 };
 
 struct RelightImageOptions : MethodOptions {
@@ -137,7 +140,7 @@ struct RelightImageOptions : MethodOptions {
   ColorTarget target = ColorTarget::kSrgb;
   Observer seen_by = Observer::kCie1931;
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65
-  Way way = Way::kDirect;
+  RelightMode mode = RelightMode::kDirect;
   explicit RelightImageOptions(NamedLight seen_under) : under(std::move(seen_under)) {}
 };
 
@@ -149,7 +152,7 @@ struct ProjectImageOptions : ImageOptions {
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
 };
 
-/// What upsample_image() did not compute; all zero where it was told not to skip.
+/// Work that upsample_image() saved; all zero where it was told not to skip.
 struct SkipStats {
   std::uint64_t masked_pixels = 0;
   std::uint64_t black_pixels = 0;     ///< not masked, black in the method's RGB
@@ -164,7 +167,7 @@ struct SkipStats {
   double core_seconds_saved = 0;
 };
 
-/// What a conversion did.
+/// Report of a conversion.
 struct ImageReport {
   int width = 0;
   int height = 0;
@@ -178,8 +181,8 @@ struct ImageReport {
   std::uint64_t bytes_written = 0;
   double seconds = 0;
   SkipStats skipped;
-  std::string color_space;         ///< what the input's RGB was taken for
-  std::vector<std::string> notes;  ///< what was left out, in words
+  std::string color_space;         ///< of the input's RGB
+  std::vector<std::string> notes;  ///< parts of the input that were left out, and the like
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
@@ -191,7 +194,7 @@ struct ImageReport {
 /// Input: half, float or uint; scanline or tiled, any part, any data window, layers, luminance with or
 /// without chroma. RGB is linear, of the space that the options or the attributes colorInteropID or
 /// chromaticities name, else sRGB's. Whites: a reflectance's white is adapted (Bradford) from the space's
-/// white to D65, so that RGB 1, 1, 1 stays the white reflector; light is not adapted, its XYZ stays what it
+/// white to D65, so that RGB 1, 1, 1 stays the perfect diffuser; light is not adapted, its XYZ stays what it
 /// was. Output: the layout of Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021; or, as coefficients, the float
 /// channels spectile.c0, c1, c2 (and spectile.scale) with attributes that say how to expand them.
 Result<ImageReport> upsample_image(const std::string& input, const std::string& output,
@@ -233,7 +236,7 @@ Result<RgbImage> read_rgb_image(const std::string& path, const std::string& laye
 Result<void> write_rgb_image(const std::string& path, ColorView rgb, int width, int height,
                              const ImageOptions& options = {});
 
-/// What one channel of an image holds.
+/// Statistics of one channel of an image.
 struct ChannelInfo {
   std::string name;
   std::string type;
@@ -243,12 +246,12 @@ struct ChannelInfo {
   std::uint64_t negative = 0;
 };
 
-/// What a file holds.
+/// Metadata and statistics of a file.
 struct ImageInfo {
   int width = 0;
   int height = 0;
-  std::array<int, 4> data_window{};     ///< x0, y0, x1, y1, inclusive
-  std::array<int, 4> display_window{};  ///< x0, y0, x1, y1, inclusive
+  PixelWindow data_window;
+  PixelWindow display_window;
   int parts = 1;
   bool tiled = false;
   std::string compression;
@@ -274,7 +277,7 @@ struct VerifyReport {
   std::uint64_t different_samples = 0;  ///< kernel's bits against the reference's
   double max_kernel_difference = 0;     ///< absolute
   double max_oracle_difference = 0;  ///< reference against double, over the pixel's largest possible sample
-  double oracle_bound = 0;           ///< what that must not exceed
+  double oracle_bound = 0;           ///< maximum of that
   bool ok() const { return different_samples == 0 && max_oracle_difference <= oracle_bound; }
 };
 

@@ -22,9 +22,10 @@ std::string settings_text(const ExpandImageOptions& options);
 /// kNoPermission.
 Result<std::string> settings_of(const std::string& path);
 
-/// Whether an output needs no new conversion: it is a whole image, made with these settings, and was last
+/// True if an output needs no new conversion: it is a whole image, made with these settings, and was last
 /// written after each of the files that it was made from. Times that are equal do not count, nor does a file
 /// that cannot be looked at: where there is doubt, the answer is no.
-bool up_to_date(const std::string& output, std::span<const std::string> made_from, std::string_view settings);
+bool up_to_date(const std::string& output, std::span<const std::string> dependencies,
+                std::string_view settings);
 
 }  // namespace spectile

@@ -203,7 +203,7 @@ int run(const Arguments& a) {
   }
   ImageOptions options;
   options.threads = a.common.threads;
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   const auto compression = Compression::parse(a.compression);
   if (!compression) return complain_usage(compression.error().message, kName);
   options.compression = *compression;

@@ -30,7 +30,7 @@ int apply_common(const Common& common) {
 }
 
 void add_format_options(CLI::App& command, WriteOptions& options, const std::string& pixel_default) {
-  add_choice(command, "--pixel", options.pixel, kPixelTypes,
+  add_choice(command, "--pixel", options.pixel, kSampleTypes,
              "Sample type: half or float; " + pixel_default + " by default")
       ->type_name("TYPE")
       ->group(kFormatGroup);

@@ -20,7 +20,8 @@ inline constexpr const char* kManyGroup = "Many images";
 inline constexpr const char* kRunGroup = "Run";
 
 inline constexpr Choice<Observer> kObservers[] = {{"1931", Observer::kCie1931}, {"1964", Observer::kCie1964}};
-inline constexpr Choice<PixelType> kPixelTypes[] = {{"half", PixelType::kHalf}, {"float", PixelType::kFloat}};
+inline constexpr Choice<SampleType> kSampleTypes[] = {{"half", SampleType::kHalf},
+                                                      {"float", SampleType::kFloat}};
 inline constexpr Choice<NonFinite> kNonFinites[] = {
     {"error", NonFinite::kStop}, {"stop", NonFinite::kStop}, {"zero", NonFinite::kZero}};
 inline constexpr Choice<ColorTarget> kTargets[] = {
@@ -46,7 +47,7 @@ int apply_common(const Common& common);
 
 /// Options of what is written.
 struct WriteOptions {
-  std::optional<PixelType> pixel;
+  std::optional<SampleType> pixel;
   std::string compression;
   NonFinite nonfinite = NonFinite::kStop;
   std::size_t lanes = 65536;

@@ -38,10 +38,10 @@ std::optional<Shard> parse_shard(std::string_view text) {
   return Shard{*index, *count};
 }
 
-std::optional<std::array<int, 4>> parse_region(std::string_view text) {
+std::optional<PixelWindow> parse_region(std::string_view text) {
   const auto region = parse_list<int, 4>(text);
   if (!region || (*region)[0] > (*region)[2] || (*region)[1] > (*region)[3]) return {};
-  return region;
+  return PixelWindow::inclusive((*region)[0], (*region)[1], (*region)[2], (*region)[3]);
 }
 
 std::optional<std::array<int, 2>> parse_pixel(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstddef>
 #include <optional>
+#include <spectile/pixel_window.hpp>
 #include <spectile/result.hpp>
 #include <string>
 #include <string_view>
@@ -25,8 +26,8 @@ std::optional<Shard> parse_shard(std::string_view text);
 /// An integer of at most nine digits; nothing for other texts.
 std::optional<std::size_t> parse_count(std::string_view text);
 
-/// "X0,Y0,X1,Y1" with X0 <= X1 and Y0 <= Y1; nothing for other texts.
-std::optional<std::array<int, 4>> parse_region(std::string_view text);
+/// "X0,Y0,X1,Y1", the first and the last pixel, with X0 <= X1 and Y0 <= Y1; nothing for other texts.
+std::optional<PixelWindow> parse_region(std::string_view text);
 
 /// "X,Y"; nothing for other texts.
 std::optional<std::array<int, 2>> parse_pixel(std::string_view text);

@@ -25,7 +25,7 @@ struct Work {
   std::vector<double> averages;
   FloatBuffer floats;
   FloatBuffer halves;
-  std::vector<char> limited;
+  std::vector<char> clamped;
 };
 
 class AverageJob : public io::LineJob {
@@ -34,10 +34,10 @@ class AverageJob : public io::LineJob {
              const kernels::KernelTable& kernels)
       : inputs_(inputs), options_(options), kernels_(kernels), nonfinite_(inputs.count()) {
     plan_.planes = inputs.planes();
-    plan_.width = io::width_of(inputs.header());
+    plan_.width = inputs.header().width();
     for (const io::PlaneSpec& plane : plan_.planes) {
-      plan_.depths.push_back(exact::depth_for(plane.type == Imf::HALF, weights));
-      has_whole_ = has_whole_ || plane.type == Imf::UINT;
+      plan_.depths.push_back(exact::depth_for(plane.type == SampleType::kHalf, weights));
+      has_whole_ = has_whole_ || plane.type == SampleType::kUint32;
     }
     for (std::size_t i = 0; i < inputs.count(); ++i) {
       if (weights.units[i] != 0) read_.push_back(i);
@@ -48,9 +48,9 @@ class AverageJob : public io::LineJob {
   std::vector<io::ChannelSpec> channels() const {
     std::vector<io::ChannelSpec> out;
     for (const io::PlaneSpec& plane : plan_.planes) {
-      exr_pixel_type_t type = io::passing_type(plane);
-      if (options_.stored && plane.type != Imf::UINT) {
-        type = *options_.stored == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+      SampleType type = plane.type;
+      if (options_.stored && plane.type != SampleType::kUint32) {
+        type = *options_.stored;
       }
       out.push_back({plane.name, type});
     }
@@ -58,31 +58,26 @@ class AverageJob : public io::LineJob {
   }
 
   /// Lines worth a strip: whole chunks of every image, some 4 MiB of sums, which caches hold.
-  int strip_lines(int at_least) const {
+  int strip_lines(int at_least) const override {
     constexpr std::size_t kStripBytes = std::size_t{4} << 20;
     const int unit = std::max(inputs_.chunk_lines(), at_least);
     const auto fitting = static_cast<int>(std::min<std::size_t>(kStripBytes / plan_.line_bytes(), 256));
-    return std::clamp(fitting / unit * unit, std::min(unit, io::height_of(inputs_.header())),
-                      io::height_of(inputs_.header()));
+    return std::clamp(fitting / unit * unit, std::min(unit, inputs_.header().height()),
+                      inputs_.header().height());
   }
 
-  Result<void> prepare(const io::ExrWriter& writer, std::vector<io::ChannelSpec> channels,
-                       std::size_t slots) {
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
-    channels_ = std::move(channels);
+    channels_ = channels();
     const auto width = static_cast<std::size_t>(plan_.width);
     const std::size_t padded = blocks_for(width) * kLanesPerBlock;
     for (std::size_t i = 0; i < slots; ++i) {
       Work work;
-      auto floats = FloatBuffer::create(padded);
-      auto halves = FloatBuffer::create(padded / 2);
-      if (!floats) return floats.error();
-      if (!halves) return halves.error();
-      work.floats = *std::move(floats);
-      work.halves = *std::move(halves);
+      SPECTILE_ASSIGN(work.floats, FloatBuffer::create(padded));
+      SPECTILE_ASSIGN(work.halves, FloatBuffer::create(padded / 2));
       std::fill_n(work.floats.data(), padded, 0.0F);
       work.averages.resize(width);
-      work.limited.resize(width);
+      work.clamped.resize(width);
       works_.push_back(std::move(work));
     }
     return {};
@@ -108,7 +103,7 @@ class AverageJob : public io::LineJob {
       while (!results[i] && i < seen && !failed.compare_exchange_weak(seen, i)) {
       }
     };
-    // The first image's whole numbers are what the others are compared with.
+    // The first image's integers are what the others are compared with.
     const std::size_t alone = has_whole_ ? 1 : 0;
     for (std::size_t i = 0; i < alone; ++i) one(i);
     tiles::for_blocks(read_.size() - alone, {options_.threads, kLanesPerBlock},
@@ -125,17 +120,17 @@ class AverageJob : public io::LineJob {
     sums.count_nonfinite(line, stats.nonfinite);
     if (packed == nullptr) return;
     const auto width = static_cast<std::size_t>(plan_.width);
-    std::fill(work.limited.begin(), work.limited.end(), 0);
+    std::fill(work.clamped.begin(), work.clamped.end(), 0);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       std::byte* const out = packed + writer_->channel_offset(i);
-      if (channels_[i].type == EXR_PIXEL_UINT) {
+      if (channels_[i].type == SampleType::kUint32) {
         std::memcpy(out, strip.row(i, line), width * sizeof(std::uint32_t));
         continue;
       }
       sums.averages(i, line, work.averages.data());
       store(work, channels_[i].type, out);
     }
-    stats.limited += static_cast<std::uint64_t>(std::count(work.limited.begin(), work.limited.end(), 1));
+    stats.clamped += static_cast<std::uint64_t>(std::count(work.clamped.begin(), work.clamped.end(), 1));
   }
 
   /// The error for the first image that has pixels which are not finite.
@@ -164,7 +159,7 @@ class AverageJob : public io::LineJob {
     if (added.difference) {
       const io::Difference& at = *added.difference;
       return make_error(ErrorCode::kBadFile,
-                        "{}: channel \"{}\" is {} at {},{}, but {} in {}; whole numbers cannot be averaged",
+                        "{}: channel \"{}\" is {} at {},{}, but {} in {}; integers cannot be averaged",
                         inputs_.path(input), plan_.planes[at.plane].name, at.here, at.x, at.y, at.first,
                         inputs_.path(read_[0]));
     }
@@ -173,17 +168,17 @@ class AverageJob : public io::LineJob {
     return {};
   }
 
-  void store(Work& work, exr_pixel_type_t type, std::byte* out) {
+  void store(Work& work, SampleType type, std::byte* out) {
     const std::size_t width = work.averages.size();
     float* const floats = work.floats.data();
-    if (type == EXR_PIXEL_FLOAT) {
+    if (type == SampleType::kFloat) {
       for (std::size_t x = 0; x < width; ++x) floats[x] = static_cast<float>(work.averages[x]);
       std::memcpy(out, floats, width * sizeof(float));
       return;
     }
     for (std::size_t x = 0; x < width; ++x) {
       const float value = exact::to_odd_float(work.averages[x]);
-      if (std::fabs(value) > kernels::kHalfMax) work.limited[x] = 1;
+      if (std::fabs(value) > kernels::kHalfMax) work.clamped[x] = 1;
       floats[x] = std::clamp(value, -kernels::kHalfMax, kernels::kHalfMax);
     }
     auto* const halves = reinterpret_cast<std::uint16_t*>(work.halves.data());
@@ -215,28 +210,25 @@ Result<ImageReport> average_files(std::span<const std::string> paths, const std:
   SPECTILE_ASSIGN(auto weights,
                   exact::whole_weights(options.weights.empty() ? std::vector<double>(paths.size(), 1.0)
                                                                : options.weights));
-  for (const std::string& path : paths) SPECTILE_TRY(io::check_distinct(path, output));
-  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  const int threads = tiles::thread_count(options.threads);
-  SPECTILE_ASSIGN(auto inputs, io::AverageInputs::open(paths, threads));
+  if (options.stored == SampleType::kUint32) {
+    return make_error(ErrorCode::kBadArgument, "{}: averages are written as half or float", output);
+  }
+  SPECTILE_ASSIGN(const auto setup, io::set_up_job(paths, output, options));
+  SPECTILE_ASSIGN(auto inputs, io::AverageInputs::open(paths, setup.threads));
 
   const double sum = weights.sum;
-  AverageJob job(*inputs, options, std::move(weights), *kernels);
+  AverageJob job(*inputs, options, std::move(weights), setup.kernels);
   io::ImageSpec spec;
   spec.source = &inputs->header();
   spec.channels = job.channels();
-  spec.compression = options.compression;
   spec.replaced = {"spectileAverage"};
   spec.text_attributes.emplace_back(
       "spectileAverage",
       fmt::format("{} image{}, weights' sum {}", paths.size(), paths.size() == 1 ? "" : "s", sum));
-  const std::size_t slots = io::slot_count(spec, io::width_of(*spec.source), threads);
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
-  SPECTILE_TRY(job.prepare(*writer, spec.channels, slots));
   ImageOptions run = options;
   run.progress = [&job](const Progress& progress) { return job.carry_on(progress); };
-  return io::convert(job, *writer, slots, job.strip_lines(writer->lines_per_chunk()), run,
-                     [&job](const LineStats& found) { return job.refusal(found); });
+  const auto refusal = [&job](const LineStats& found) { return job.refusal(found); };
+  return io::run_image_job({job, output, std::move(spec), run, refusal, {}});
 }
 
 }  // namespace

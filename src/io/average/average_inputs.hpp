@@ -1,8 +1,6 @@
 // AverageInputs: the images of an average, checked to be of one frame, and read side by side.
 #pragma once
 
-#include <OpenEXR/ImfHeader.h>
-
 #include <memory>
 #include <mutex>
 #include <span>
@@ -26,7 +24,7 @@ class AverageInputs {
   std::size_t count() const noexcept { return paths_.size(); }
   const std::string& path(std::size_t input) const { return paths_[input]; }
   /// The first image's.
-  const Imf::Header& header() const noexcept { return header_; }
+  const PartHeader& header() const noexcept { return header_; }
   /// The channels, each in the widest type that an image has it in.
   const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
   /// Lines that are decoded at once, of the image where they are most.
@@ -46,7 +44,7 @@ class AverageInputs {
 
   std::vector<std::string> paths_;
   int threads_each_ = 1;
-  Imf::Header header_;
+  PartHeader header_;
   std::vector<PlaneSpec> planes_;
   int chunk_lines_ = 1;
   std::vector<std::unique_ptr<ExrInput>> open_;  // of the first few images

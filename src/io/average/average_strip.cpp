@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLinesApart = 7;
 
 std::size_t sum_bytes(const AveragePlan& plan, std::size_t plane) {
-  if (plan.planes[plane].type == Imf::UINT) return sizeof(std::uint32_t);
+  if (plan.planes[plane].type == SampleType::kUint32) return sizeof(std::uint32_t);
   return exact::words(plan.depths[plane]) * sizeof(std::uint64_t);
 }
 
@@ -68,8 +68,8 @@ Result<Added> AverageStrip::add(const Strip& samples, exact::Wide units, std::si
   Added added;
   for (int line = first_line; line < first_line + lines; ++line) {
     for (std::size_t plane = 0; plane < plan_.planes.size(); ++plane) {
-      if (plan_.planes[plane].type != Imf::UINT || added.difference) continue;
-      added.difference = settle_whole(samples, plane, line, image == 0);
+      if (plan_.planes[plane].type != SampleType::kUint32 || added.difference) continue;
+      added.difference = match_integers(samples, plane, line, image == 0);
     }
   }
   // Images that are added side by side begin at different lines, not to wait for each other at every one.
@@ -94,11 +94,11 @@ bool AverageStrip::add_line(const Strip& samples, int line, exact::Wide units, f
   const std::scoped_lock lock(state.adding);
   bool all_finite = true;
   for (std::size_t plane = 0; plane < plan_.planes.size(); ++plane) {
-    const Imf::PixelType type = plan_.planes[plane].type;
-    if (type == Imf::UINT) continue;
+    const SampleType type = plan_.planes[plane].type;
+    if (type == SampleType::kUint32) continue;
     const std::byte* const from = samples.row(plane, line);
     const float* values = reinterpret_cast<const float*>(from);
-    if (type == Imf::HALF) {
+    if (type == SampleType::kHalf) {
       kernels.half_to_float(row, reinterpret_cast<const std::uint16_t*>(from), padded(plan_));
       values = row;
     }
@@ -115,9 +115,9 @@ bool AverageStrip::add_line(const Strip& samples, int line, exact::Wide units, f
   return all_finite;
 }
 
-/// Keeps the first image's whole numbers, or compares another's with them.
-std::optional<Difference> AverageStrip::settle_whole(const Strip& samples, std::size_t plane, int line,
-                                                     bool first) {
+/// Keeps the first image's integers, or compares another's with them.
+std::optional<Difference> AverageStrip::match_integers(const Strip& samples, std::size_t plane, int line,
+                                                       bool first) {
   const auto pixels = static_cast<std::size_t>(plan_.width);
   auto* const kept = reinterpret_cast<std::uint32_t*>(Strip::row(plane, line));
   const auto* const here = reinterpret_cast<const std::uint32_t*>(samples.row(plane, line));

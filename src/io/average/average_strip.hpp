@@ -18,7 +18,7 @@ namespace spectile::io {
 /// How the planes of a strip are summed.
 struct AveragePlan {
   std::vector<PlaneSpec> planes;
-  std::vector<exact::Depth> depths;  // of each plane; of no matter for whole numbers
+  std::vector<exact::Depth> depths;  // of each plane; of no matter for integers
   exact::Weights weights;
   int width = 0;
 
@@ -26,7 +26,7 @@ struct AveragePlan {
   std::size_t line_bytes() const;
 };
 
-/// Where an image's whole numbers differ from the first's.
+/// Where an image's integers differ from the first's.
 struct Difference {
   std::size_t plane = 0;
   int x = 0;
@@ -35,20 +35,20 @@ struct Difference {
   std::uint32_t first = 0;
 };
 
-/// What an image's part of a strip was found to hold.
+/// Findings in an image's part of a strip.
 struct Added {
   PixelCount nonfinite;
   std::optional<Difference> difference;
 };
 
-/// The sums, in the planes of Strip: whole numbers as they are, other channels as words of exact sums.
+/// The sums, in the planes of Strip: integers as they are, other channels as words of exact sums.
 class AverageStrip : public Strip {
  public:
   /// Errors: kOutOfMemory.
   static Result<std::shared_ptr<AverageStrip>> create(const AveragePlan& plan, int first_line, int lines);
 
   /// Adds an image's samples, `units` times. Calls may run side by side, but for that of the first image,
-  /// whose whole numbers the others' are compared with. Errors: kOutOfMemory.
+  /// whose integers the others' are compared with. Errors: kOutOfMemory.
   Result<Added> add(const Strip& samples, exact::Wide units, std::size_t image,
                     const kernels::KernelTable& kernels);
 
@@ -66,7 +66,7 @@ class AverageStrip : public Strip {
   explicit AverageStrip(const AveragePlan& plan) : plan_(plan) {}
   bool add_line(const Strip& samples, int line, exact::Wide units, float* row, std::vector<char>& bad,
                 const kernels::KernelTable& kernels);
-  std::optional<Difference> settle_whole(const Strip& samples, std::size_t plane, int line, bool first);
+  std::optional<Difference> match_integers(const Strip& samples, std::size_t plane, int line, bool first);
   std::uint8_t* flags(std::size_t plane, int line) const;
   std::uint64_t* sums(std::size_t plane, int line);
 

@@ -1,4 +1,4 @@
-// Exact weighted averages: weights and sums are whole numbers, so no order of adding can matter, and each
+// Exact weighted averages: weights and sums are integers, so no order of adding can matter, and each
 // average is rounded once.
 #include "src/io/average/exact_average.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 // Bits of the weights' total. A sample is at most 2^24 - 1 times 2^0 to 2^253 of the least float; with these
 // many bits more a sum stays below 2^319, 2^383, the room of 5 and 6 words with sign, and a product with one
 // word, or two. A half is at most 2^40 times the least, so 22 bits more leave room for the sign.
-// With 37 and 100 bits, a quotient of 64 and 128 bits has 27 and 28, more than a float needs to be rounded.
+// With 37 and 100 bits, a ratio of 64 and 128 bits has 27 and 28, more than a float needs to be rounded.
 constexpr int kHalfBits = 22;
 constexpr int kNarrowBits = 37;
 constexpr int kWideBits = 100;
@@ -62,7 +62,7 @@ double odd_double(Term q, bool more, int exponent) {
   return static_cast<double>(static_cast<std::int64_t>(whole)) * power_of_two(exponent);
 }
 
-/// The leading bits of a whole number, as many as Term has, its first one set; the number is `leading`, and
+/// The leading bits of an integer, as many as Term has, its first one set; the number is `leading`, and
 /// what follows when `more` says so, times 2^exponent. Of `count` words, the last is not 0.
 template <class Term>
 struct Leading {
@@ -87,7 +87,7 @@ struct Leading {
 
 /// sum * 2^grid / total, rounded to odd; the sum is signed and not 0.
 template <int kWords, class Term>
-double quotient(const std::uint64_t* sum, Term total, int grid) {
+double ratio(const std::uint64_t* sum, Term total, int grid) {
   std::uint64_t magnitude[kWords];
   const bool negative = (sum[kWords - 1] >> 63) != 0;
   std::uint64_t carry = negative ? 1 : 0;
@@ -179,7 +179,7 @@ void finish(double* averages, const std::uint64_t* sums, const std::uint8_t* fla
     if (zero) {
       averages[x] = there != 0 && (flags[x] & kOther) == 0 ? -0.0 : 0.0;
     } else {
-      averages[x] = quotient<kWords, Term>(sum, there, grid);
+      averages[x] = ratio<kWords, Term>(sum, there, grid);
     }
   }
 }

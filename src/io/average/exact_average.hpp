@@ -1,4 +1,4 @@
-// Exact weighted averages: weights and sums are whole numbers, so no order of adding can matter, and each
+// Exact weighted averages: weights and sums are integers, so no order of adding can matter, and each
 // average is rounded once.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spectile::exact {
 
-/// A whole number of 128 bits.
+/// An integer of 128 bits.
 __extension__ using Wide = unsigned __int128;
 
 /// Weights as whole multiples of one number, which are all that an average needs of them.

@@ -22,7 +22,7 @@ constexpr std::size_t kBlockSequences = 16384;
 // Bytes of a block at most, so that all counts stay far from overflow.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 28;
 // Two to this many bytes in which no string was found make the search's steps one longer, up to a limit.
-constexpr int kPatience = 8;
+constexpr int kSkipShift = 8;
 constexpr std::size_t kMaxMissed = std::size_t{1} << 16;
 // Runs from so many bytes on are black or constant parts.
 constexpr std::size_t kLongRun = 512;
@@ -119,14 +119,14 @@ std::size_t RunDeflate::compress(std::span<const std::uint8_t> in, std::uint8_t*
     const bool run = load64(bytes + i) == load64(bytes + i - 1);
     if (run) found = i - 1;
     if (!run && (i - found > kWindow || load32(bytes + found) != v)) {
-      const std::size_t step = 1 + (missed >> kPatience);
+      const std::size_t step = 1 + (missed >> kSkipShift);
       missed = std::min(missed + step, kMaxMissed);
       i += step;
       continue;
     }
     const std::size_t most = std::min(n, block + kBlockBytes);
     std::size_t length = 4 + equal_bytes(bytes + i + 4, bytes + found + 4, bytes + most);
-    // What lies before it, too, as far as no sequence has it.
+    // The bytes before it too, as far as no sequence has them.
     const std::size_t before = equal_bytes_before(bytes + i, bytes + found, std::min(i - anchor, found));
     i -= before;
     found -= before;

@@ -1,24 +1,36 @@
-// Names of OpenEXR's compression methods.
+// Traits of OpenEXR's compression methods.
+#include "src/io/exr/compression.hpp"
+
 #include <charconv>
-#include <spectile/image/image.hpp>
+#include <iterator>
 
 #include "src/base/errors.hpp"
 
 namespace spectile {
 namespace {
 
-/// A method by name and the highest level it takes; 0 for none. DWA's level is a quality, the others' zlib's.
-constexpr struct {
+/// A method: its name, the highest level that it takes (0 for none; a quality for DWA, zlib's for the
+/// others), and the lines of a scanline chunk.
+struct Traits {
   std::string_view name;
   CompressionKind kind;
-  int highest_level;
-} kMethods[] = {
-    {"none", CompressionKind::kNone, 0},   {"rle", CompressionKind::kRle, 0},
-    {"zips", CompressionKind::kZips, 9},   {"zip", CompressionKind::kZip, 9},
-    {"piz", CompressionKind::kPiz, 0},     {"pxr24", CompressionKind::kPxr24, 0},
-    {"b44", CompressionKind::kB44, 0},     {"b44a", CompressionKind::kB44a, 0},
-    {"dwaa", CompressionKind::kDwaa, 500}, {"dwab", CompressionKind::kDwab, 500},
+  int max_level;
+  int chunk_lines;
 };
+
+// In the order of the enumeration.
+constexpr Traits kMethods[] = {
+    {"none", CompressionKind::kNone, 0, 1},    {"rle", CompressionKind::kRle, 0, 1},
+    {"zips", CompressionKind::kZips, 9, 1},    {"zip", CompressionKind::kZip, 9, 16},
+    {"piz", CompressionKind::kPiz, 0, 32},     {"pxr24", CompressionKind::kPxr24, 0, 16},
+    {"b44", CompressionKind::kB44, 0, 32},     {"b44a", CompressionKind::kB44a, 0, 32},
+    {"dwaa", CompressionKind::kDwaa, 500, 32}, {"dwab", CompressionKind::kDwab, 500, 256},
+};
+
+const Traits& traits(CompressionKind kind) {
+  const auto i = static_cast<std::size_t>(kind);
+  return kMethods[i < std::size(kMethods) ? i : 0];
+}
 
 }  // namespace
 
@@ -29,12 +41,12 @@ Result<Compression> Compression::parse(std::string_view text) {
     if (method.name != name) continue;
     Compression out;
     out.kind = method.kind;
-    if (out.kind != CompressionKind::kZip && out.kind != CompressionKind::kZips) out.level = -1;
+    if (!io::is_zip(out.kind)) out.level = -1;
     if (colon == std::string_view::npos) return out;
     const std::string_view level = text.substr(colon + 1);
     const auto [end, error] = std::from_chars(level.data(), level.data() + level.size(), out.level);
     const bool number = error == std::errc{} && end == level.data() + level.size();
-    if (!number || out.level < 1 || out.level > method.highest_level) {
+    if (!number || out.level < 1 || out.level > method.max_level) {
       return make_error(
           ErrorCode::kBadArgument,
           "compression \"{}\": zip and zips take a level of 1 to 9, dwaa and dwab one of 1 to 500, the "
@@ -50,12 +62,13 @@ Result<Compression> Compression::parse(std::string_view text) {
 }
 
 std::string Compression::description() const {
-  for (const auto& method : kMethods) {
-    if (method.kind != kind) continue;
-    return method.highest_level > 0 && level >= 0 ? fmt::format("{}:{}", method.name, level)
-                                                  : std::string(method.name);
-  }
-  return "none";
+  const Traits& method = traits(kind);
+  return method.max_level > 0 && level >= 0 ? fmt::format("{}:{}", method.name, level)
+                                            : std::string(method.name);
+}
+
+int io::lines_per_chunk(CompressionKind kind) {
+  return traits(kind).chunk_lines;
 }
 
 }  // namespace spectile

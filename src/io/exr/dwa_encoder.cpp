@@ -8,23 +8,25 @@
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 
+#include "src/io/exr/compression.hpp"
 #include "src/io/exr/memory_stream.hpp"
 
 namespace spectile::io {
 
-std::vector<char> encode_dwa(Imf::Compression method, int level, const std::vector<PackedChannel>& channels,
+std::vector<char> encode_dwa(const Compression& compression, const std::vector<PackedChannel>& channels,
                              std::size_t line_bytes, int width, int lines, const std::byte* packed,
                              bool tile) {
   Imf::Header header(width, lines);
-  header.compression() = method;
-  if (level >= 0) header.dwaCompressionLevel() = static_cast<float>(level);
+  header.compression() =
+      compression.kind == CompressionKind::kDwab ? Imf::DWAB_COMPRESSION : Imf::DWAA_COMPRESSION;
+  if (compression.level >= 0) header.dwaCompressionLevel() = static_cast<float>(compression.level);
   Imf::FrameBuffer source;
   for (const PackedChannel& channel : channels) {
-    const auto type = static_cast<Imf::PixelType>(channel.type);
+    const auto type = static_cast<Imf::PixelType>(pixel_type(channel.type));
     header.channels().insert(channel.name, Imf::Channel(type));
     // OpenEXR takes a mutable pointer for reading too.
     char* const base = const_cast<char*>(reinterpret_cast<const char*>(packed)) + channel.offset;
-    source.insert(channel.name, Imf::Slice(type, base, channel.type == EXR_PIXEL_HALF ? 2 : 4, line_bytes));
+    source.insert(channel.name, Imf::Slice(type, base, sample_bytes(channel.type), line_bytes));
   }
   MemoryStream stream;
   std::size_t chunk_start = 0;

@@ -1,8 +1,10 @@
 // ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
 #include "src/io/exr/exr_input.hpp"
 
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
-#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledInputPart.h>
 #include <fcntl.h>
@@ -18,7 +20,6 @@
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
-#include "src/io/exr/exr_sizes.hpp"
 
 namespace spectile::io {
 namespace {
@@ -68,20 +69,25 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
   }
 }
 
+ExrInput::ExrInput(std::string path) : path_(std::move(path)) {}
+
+ExrInput::~ExrInput() = default;
+
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
   SPECTILE_TRY(check_is_exr(path));
   std::unique_ptr<ExrInput> input(new ExrInput(path));
   SPECTILE_ASSIGN(input->identity_, identify(path));
   SPECTILE_TRY(guarded(path, [&] {
-    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
-    Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxImageSize(PartHeader::kMaxSide, PartHeader::kMaxSide);
+    Imf::Header::setMaxTileSize(PartHeader::kMaxSide, PartHeader::kMaxSide);
     const int workers = threads > 1 ? threads : 0;
     if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
     input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), workers);
+    for (int part = 0; part < input->file_->parts(); ++part) {
+      input->headers_.emplace_back(input->file_->header(part));
+    }
   }));
-  bool flat = false;
-  for (int part = 0; part < input->parts(); ++part) flat = flat || !input->deep(part);
-  if (!flat)
+  if (std::all_of(input->headers_.begin(), input->headers_.end(), [](const auto& h) { return h.deep(); }))
     return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
   return input;
 }
@@ -97,11 +103,6 @@ Result<void> ExrInput::unchanged() const {
   SPECTILE_ASSIGN(const auto now, identify(path_));
   if (now == identity_) return {};
   return make_error(ErrorCode::kBadFile, "{}: was changed while it was read", path_);
-}
-
-bool ExrInput::deep(int part) const {
-  const Imf::Header& h = header(part);
-  return h.hasType() && Imf::isDeepData(h.type());
 }
 
 Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, int y1) {
@@ -120,20 +121,32 @@ Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int 
   });
 }
 
-Result<void> ExrInput::read_smallest(int part) {
+Result<void> ExrInput::read_last(int part) {
   return guarded(path_, [&] {
+    // A channel that there is not; lines and tiles are decoded all the same.
+    std::vector<float> samples;
+    Imf::FrameBuffer target;
+    const auto aim_at = [&](const Imath::Box2i& window) {
+      const int width = window.max.x - window.min.x + 1;
+      const int height = window.max.y - window.min.y + 1;
+      samples.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+      target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, samples.data(), window.min, width, height));
+    };
+    const PartHeader& h = header(part);
+    if (!h.tiles() || !h.tiles()->has_levels) {
+      const PixelWindow& w = h.data_window();
+      aim_at({{w.x0, w.y1 - 1}, {w.x1 - 1, w.y1 - 1}});
+      Imf::InputPart input(*file_, part);
+      input.setFrameBuffer(target);
+      input.readPixels(w.y1 - 1, w.y1 - 1);
+      return;
+    }
     Imf::TiledInputPart input(*file_, part);
     const int level_x = input.numXLevels() - 1;
     const int level_y = input.numYLevels() - 1;
     const int x = input.numXTiles(level_x) - 1;
     const int y = input.numYTiles(level_y) - 1;
-    const Imath::Box2i window = input.dataWindowForTile(x, y, level_x, level_y);
-    const int width = window.max.x - window.min.x + 1;
-    const int height = window.max.y - window.min.y + 1;
-    std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    // A channel that there is not; the tile is read all the same.
-    Imf::FrameBuffer target;
-    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, samples.data(), window.min, width, height));
+    aim_at(input.dataWindowForTile(x, y, level_x, level_y));
     input.setFrameBuffer(target);
     input.readTile(x, y, level_x, level_y);
   });

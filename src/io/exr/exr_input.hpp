@@ -1,9 +1,7 @@
 // ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
 #pragma once
 
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfForward.h>
 
 #include <array>
 #include <cstdint>
@@ -11,30 +9,35 @@
 #include <memory>
 #include <spectile/result.hpp>
 #include <string>
+#include <vector>
+
+#include "src/io/exr/part_header.hpp"
 
 namespace spectile::io {
 
 /// Runs `action`; an exception becomes an Error that names `path`.
 Result<void> guarded(const std::string& path, const std::function<void()>& action);
 
+/// Walks over the attributes of every part's header of an open OpenEXR file. OpenEXR takes memory for the
+/// size that an attribute claims, up to 2 GiB, before it finds the file to be shorter. What else may be wrong
+/// is left to it. Errors: kBadFile for an attribute of more bytes than follow, or of fewer than none.
+Result<void> check_attribute_sizes(int descriptor, const std::string& path);
+
 /// A file with at least one flat (not deep) part. Not thread-safe; it decodes on several threads itself.
 class ExrInput {
  public:
   /// Opens and checks the headers of every part.
-  /// Errors: kBadFile (missing, a directory, not OpenEXR, damaged, deep only, larger than kMaxSide);
-  /// kNoPermission.
+  /// Errors: kBadFile (missing, a directory, not OpenEXR, damaged, deep only, larger than
+  /// PartHeader::kMaxSide); kNoPermission.
   static Result<std::unique_ptr<ExrInput>> open(const std::string& path, int threads);
-
-  // Pixels along a side that are believed; more is taken for damage.
-  static constexpr int kMaxSide = 1 << 18;
+  ~ExrInput();
 
   const std::string& path() const noexcept { return path_; }
-  int parts() const { return file_->parts(); }
-  const Imf::Header& header(int part) const { return file_->header(part); }
-  bool deep(int part) const;
+  int parts() const { return static_cast<int>(headers_.size()); }
+  const PartHeader& header(int part) const { return headers_[static_cast<std::size_t>(part)]; }
 
-  /// Whether the path still leads to the file that was opened, as it was then; what was read is of one piece
-  /// if so. Errors: kBadFile.
+  /// Checks that the path still leads to the file that was opened, as it was then, so that what was read is
+  /// of one piece. Errors: kBadFile.
   Result<void> unchanged() const;
 
   /// Reads lines y0 to y1, both included, of a part into the frame buffer. Errors: kBadFile.
@@ -44,18 +47,20 @@ class ExrInput {
   /// by read() or by this, not by both. Errors: kBadFile.
   Result<void> read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row);
 
-  /// Reads the last tile of a part's smallest level, to see whether it is there. Errors: kBadFile.
-  Result<void> read_smallest(int part);
+  /// Reads what comes last of a part, which a file that was cut short lacks: the last line, or the last tile
+  /// of the smallest level. Errors: kBadFile.
+  Result<void> read_last(int part);
 
  private:
-  explicit ExrInput(std::string path) : path_(std::move(path)) {}
-  /// What tells a file from another, and from itself after a change.
+  explicit ExrInput(std::string path);
+  /// Identifies a file, and its state.
   using Identity = std::array<std::int64_t, 5>;
   static Result<Identity> identify(const std::string& path);
 
   std::string path_;
   Identity identity_{};
   std::unique_ptr<Imf::MultiPartInputFile> file_;
+  std::vector<PartHeader> headers_;
 };
 
 }  // namespace spectile::io

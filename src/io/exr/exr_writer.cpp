@@ -2,6 +2,8 @@
 // caller, encoded in parallel, written in order.
 #include "src/io/exr/exr_writer.hpp"
 
+#include <OpenEXR/ImfHeader.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -9,8 +11,8 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/exr/attributes.hpp"
+#include "src/io/exr/compression.hpp"
 #include "src/io/exr/dwa_encoder.hpp"
-#include "src/io/exr/exr_compression.hpp"
 #include "src/io/exr/exr_input.hpp"
 #include "src/io/exr/zip_encoder.hpp"
 
@@ -22,7 +24,7 @@ struct ExrWriter::Encoder {
   exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
   exr_chunk_info_t chunk{};
   const Pack* pack = nullptr;
-  Region region;
+  PixelWindow window;
   bool ready = false;
   std::vector<std::byte> lines;       // for DWA, which has its own encoder
   std::vector<char> compressed;       // ... and its result
@@ -32,7 +34,7 @@ struct ExrWriter::Encoder {
   /// The pack step of the pipeline: the caller's last kernels write straight into the packed lines.
   static exr_result_t pack_step(exr_encode_pipeline_t* pipeline) {
     auto* self = static_cast<Encoder*>(pipeline->encoding_user_data);
-    (*self->pack)(self->region, static_cast<std::byte*>(pipeline->packed_buffer));
+    (*self->pack)(self->window, static_cast<std::byte*>(pipeline->packed_buffer));
     pipeline->packed_bytes = pipeline->chunk.unpacked_size;
     return EXR_ERR_SUCCESS;
   }
@@ -42,7 +44,7 @@ struct ExrWriter::Encoder {
 
 namespace {
 
-// What OpenEXR last complained of on this thread, which is the one that gets the failed call's code. Its
+// OpenEXR's last message on this thread, which is the one that gets the failed call's code. Its
 // handler may not ask the context for anything: the context is locked while it is called.
 thread_local std::string said_last;
 
@@ -56,7 +58,7 @@ constexpr int kLargestTile = 4096;
 std::size_t encoder_bytes(const ImageSpec& spec, int width) {
   std::size_t pixel = 0;
   for (const ChannelSpec& channel : spec.channels) pixel += channel.sample_bytes();
-  const int lines = spec.tile ? (*spec.tile)[1] : lines_per_chunk_of(spec.compression.kind);
+  const int lines = spec.tile ? (*spec.tile)[1] : io::lines_per_chunk(spec.compression.kind);
   const int across = spec.tile ? std::min((*spec.tile)[0], width) : width;
   const std::size_t packed = pixel * static_cast<std::size_t>(across) * static_cast<std::size_t>(lines);
   // Packed lines; compressed, the result and the compressor's own copies too.
@@ -115,38 +117,38 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   bool long_names = false;
   for (const ChannelSpec& channel : spec.channels)
     long_names = long_names || channel.name.size() > kShortName;
-  for (auto it = spec.source->begin(); it != spec.source->end(); ++it) {
+  const Imf::Header& source = spec.source->imf();
+  for (auto it = source.begin(); it != source.end(); ++it) {
     long_names = long_names || std::strlen(it.name()) > kShortName ||
                  std::strlen(it.attribute().typeName()) > kShortName;
   }
   if (long_names) exr_set_longname_support(context_, 1);
 
-  const Imath::Box2i& data = spec.source->dataWindow();
-  const Imath::Box2i& display = spec.source->displayWindow();
-  const exr_attr_box2i_t data_window = {{data.min.x, data.min.y}, {data.max.x, data.max.y}};
-  const exr_attr_box2i_t display_window = {{display.min.x, display.min.y}, {display.max.x, display.max.y}};
-  const exr_attr_v2f_t centre = {spec.source->screenWindowCenter().x, spec.source->screenWindowCenter().y};
-  SPECTILE_TRY(check(
-      exr_initialize_required_attr(context_, part, &display_window, &data_window,
-                                   spec.source->pixelAspectRatio(), &centre, spec.source->screenWindowWidth(),
-                                   EXR_LINEORDER_INCREASING_Y, compression_type(spec.compression.kind))));
+  const PixelWindow& data = spec.source->data_window();
+  const PixelWindow& display = spec.source->display_window();
+  const exr_attr_box2i_t data_window = {{data.x0, data.y0}, {data.x1 - 1, data.y1 - 1}};
+  const exr_attr_box2i_t display_window = {{display.x0, display.y0}, {display.x1 - 1, display.y1 - 1}};
+  const exr_attr_v2f_t centre = {source.screenWindowCenter().x, source.screenWindowCenter().y};
+  SPECTILE_TRY(check(exr_initialize_required_attr(
+      context_, part, &display_window, &data_window, source.pixelAspectRatio(), &centre,
+      source.screenWindowWidth(), EXR_LINEORDER_INCREASING_Y, compression_type(spec.compression.kind))));
   if (tiled_) {
     SPECTILE_TRY(check(exr_set_tile_descriptor(context_, part, static_cast<std::uint32_t>((*spec.tile)[0]),
                                                static_cast<std::uint32_t>((*spec.tile)[1]),
                                                spec.mipmap ? EXR_TILE_MIPMAP_LEVELS : EXR_TILE_ONE_LEVEL,
                                                EXR_TILE_ROUND_DOWN)));
   }
-  SPECTILE_TRY(check(copy_attributes(*spec.source, context_, part, spec.replaced)));
+  SPECTILE_TRY(check(copy_attributes(source, context_, part, spec.replaced)));
   for (const auto& [name, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, name.c_str(), text.c_str())));
   }
 
-  image_ = {data.max.x - data.min.x + 1, data.max.y - data.min.y + 1};
+  image_ = {data.width(), data.height()};
   levels_ = tiled_ && spec.mipmap ? level_count(image_) : 1;
   width_ = image_.width;
   height_ = image_.height;
-  first_y_ = data.min.y;
-  lines_per_chunk_ = tiled_ ? (*spec.tile)[1] : lines_per_chunk_of(spec.compression.kind);
+  first_y_ = data.y0;
+  lines_per_chunk_ = tiled_ ? (*spec.tile)[1] : io::lines_per_chunk(spec.compression.kind);
   chunk_width_ = tiled_ ? (*spec.tile)[0] : width_;
   // A line's channels lie in the order of their names.
   std::vector<std::size_t> order(spec.channels.size());
@@ -158,7 +160,7 @@ Result<void> ExrWriter::start(const std::string& path, const ImageSpec& spec, st
   compression_ = spec.compression;
   for (const std::size_t i : order) {
     const ChannelSpec& channel = spec.channels[i];
-    SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), channel.type,
+    SPECTILE_TRY(check(exr_add_channel(context_, part, channel.name.c_str(), pixel_type(channel.type),
                                        EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1)));
     offsets_[i] = pixel_bytes_;
     pixel_bytes_ += channel.sample_bytes();
@@ -180,19 +182,17 @@ ExrWriter::~ExrWriter() {
 
 Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack) {
   Encoder& encoder = *encoders_[slot];
-  const Region region = this->region(chunk);
-  const auto width = static_cast<std::size_t>(region.width);
-  encoder.lines.resize(line_bytes(region.width) * static_cast<std::size_t>(region.height));
-  pack(region, encoder.lines.data());
+  const PixelWindow window = this->window(chunk);
+  const auto width = static_cast<std::size_t>(window.width());
+  encoder.lines.resize(line_bytes(window.width()) * static_cast<std::size_t>(window.height()));
+  pack(window, encoder.lines.data());
   std::vector<PackedChannel> channels;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     channels.push_back({channels_[i].name.c_str(), channels_[i].type, channel_offset(i, width)});
   }
-  const auto method =
-      compression_.kind == CompressionKind::kDwab ? Imf::DWAB_COMPRESSION : Imf::DWAA_COMPRESSION;
   return guarded(path_, [&] {
-    encoder.compressed = encode_dwa(method, compression_.level, channels, line_bytes(region.width),
-                                    region.width, region.height, encoder.lines.data(), tiled_);
+    encoder.compressed = encode_dwa(compression_, channels, line_bytes(window.width()), window.width(),
+                                    window.height(), encoder.lines.data(), tiled_);
     encoder.result = std::as_bytes(std::span(encoder.compressed));
   });
 }
@@ -200,17 +200,17 @@ Result<void> ExrWriter::encode_dwa_chunk(std::size_t slot, int chunk, const Pack
 Result<void> ExrWriter::encode(std::size_t slot, int chunk, const Pack& pack) {
   if (is_dwa(compression_.kind)) return encode_dwa_chunk(slot, chunk, pack);
   Encoder& encoder = *encoders_[slot];
-  encoder.region = region(chunk);
+  encoder.window = window(chunk);
   exr_result_t code =
       tiled_ ? exr_write_tile_chunk_info(context_, 0, chunk % chunks_across(), chunk / chunks_across(),
                                          level_, level_, &encoder.chunk)
-             : exr_write_scanline_chunk_info(context_, 0, first_y_ + encoder.region.y, &encoder.chunk);
+             : exr_write_scanline_chunk_info(context_, 0, first_y_ + encoder.window.y0, &encoder.chunk);
   if (code != EXR_ERR_SUCCESS) return failure("encode", code);
   // OpenEXR 3.1 cuts tiles of every level off where level 0 ends.
-  encoder.chunk.width = encoder.region.width;
-  encoder.chunk.height = encoder.region.height;
+  encoder.chunk.width = encoder.window.width();
+  encoder.chunk.height = encoder.window.height();
   encoder.chunk.unpacked_size =
-      line_bytes(encoder.region.width) * static_cast<std::uint64_t>(encoder.region.height);
+      line_bytes(encoder.window.width()) * static_cast<std::uint64_t>(encoder.window.height());
   encoder.pack = &pack;
   code = encoder.ready ? exr_encoding_update(context_, 0, &encoder.chunk, &encoder.pipeline)
                        : exr_encoding_initialize(context_, 0, &encoder.chunk, &encoder.pipeline);
@@ -269,13 +269,10 @@ Progress ExrWriter::progress() const noexcept {
   return out;
 }
 
-Region ExrWriter::region(int chunk) const noexcept {
-  Region out;
-  out.x = chunk % chunks_across() * chunk_width_;
-  out.y = chunk / chunks_across() * lines_per_chunk_;
-  out.width = std::min(chunk_width_, width_ - out.x);
-  out.height = std::min(lines_per_chunk_, height_ - out.y);
-  return out;
+PixelWindow ExrWriter::window(int chunk) const noexcept {
+  const int x = chunk % chunks_across() * chunk_width_;
+  const int y = chunk / chunks_across() * lines_per_chunk_;
+  return {x, y, std::min(x + chunk_width_, width_), std::min(y + lines_per_chunk_, height_)};
 }
 
 std::span<const std::byte> ExrWriter::encoded(std::size_t slot) const {
@@ -284,10 +281,10 @@ std::span<const std::byte> ExrWriter::encoded(std::size_t slot) const {
 
 Result<void> ExrWriter::write(int chunk, std::span<const std::byte> encoded) {
   const exr_result_t code =
-      tiled_
-          ? exr_write_tile_chunk(context_, 0, chunk % chunks_across(), chunk / chunks_across(), level_,
-                                 level_, encoded.data(), encoded.size())
-          : exr_write_scanline_chunk(context_, 0, first_y_ + region(chunk).y, encoded.data(), encoded.size());
+      tiled_ ? exr_write_tile_chunk(context_, 0, chunk % chunks_across(), chunk / chunks_across(), level_,
+                                    level_, encoded.data(), encoded.size())
+             : exr_write_scanline_chunk(context_, 0, first_y_ + window(chunk).y0, encoded.data(),
+                                        encoded.size());
   if (code != EXR_ERR_SUCCESS) return write_failure("write", code);
   return {};
 }

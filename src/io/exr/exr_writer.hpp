@@ -2,7 +2,6 @@
 // caller, encoded in parallel, written in order.
 #pragma once
 
-#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/openexr.h>
 
 #include <array>
@@ -18,42 +17,37 @@
 #include <vector>
 
 #include "src/base/atomic_file.hpp"
-#include "src/io/exr/level_size.hpp"
+#include "src/io/exr/part_header.hpp"
 
 namespace spectile::io {
 
 /// A channel to write, one sample a pixel.
 struct ChannelSpec {
   std::string name;
-  exr_pixel_type_t type = EXR_PIXEL_HALF;
-  std::size_t sample_bytes() const { return type == EXR_PIXEL_HALF ? 2 : 4; }
+  SampleType type = SampleType::kHalf;
+  std::size_t sample_bytes() const { return io::sample_bytes(type); }
 };
+
+/// Names and texts of attributes.
+using TextAttributes = std::vector<std::pair<std::string, std::string>>;
 
 /// All that a file's header needs. `source` gives windows, aspect and every attribute that describes the
 /// picture; those that describe its storage are left behind, and so are those named in `replaced`.
 struct ImageSpec {
-  const Imf::Header* source = nullptr;
+  const PartHeader* source = nullptr;
   std::vector<ChannelSpec> channels;  // names must be unique; the order is free
   Compression compression;
   std::optional<std::array<int, 2>> tile;  // width, height; scanlines where none
-  bool mipmap = false;                     // of tiles: whether there are smaller levels, rounded down
-  std::vector<std::pair<std::string, std::string>> text_attributes;
+  bool mipmap = false;                     // of tiles: smaller levels too, rounded down
+  TextAttributes text_attributes;
   std::vector<std::string> replaced;
-};
-
-/// Pixels of a level that make a chunk, counted from its upper left corner.
-struct Region {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
 };
 
 /// Encodes and writes one file. Slots are independent encoders; no two threads may use one at a time.
 class ExrWriter {
  public:
-  /// Packs a region's lines one after another at `packed`.
-  using Pack = std::function<void(const Region& region, std::byte* packed)>;
+  /// Packs the lines of a part of the level one after another at `packed`.
+  using Pack = std::function<void(const PixelWindow& window, std::byte* packed)>;
 
   /// Errors: those of AtomicFile::create(), kBadFile for a header that OpenEXR refuses.
   static Result<std::unique_ptr<ExrWriter>> create(const std::string& path, const ImageSpec& spec,
@@ -68,7 +62,7 @@ class ExrWriter {
   /// The level that chunks belong to, 0 at first. Levels must be written in order; no chunk may be under way.
   int level() const noexcept { return level_; }
   void begin_level(int level);
-  /// What is done when the present level begins, and what there is to do, of all levels.
+  /// Pixels of the levels before the present one, and of all levels.
   Progress progress() const noexcept;
 
   /// Of the present level.
@@ -78,9 +72,10 @@ class ExrWriter {
   int chunks() const noexcept {
     return chunks_across() * ((height_ + lines_per_chunk_ - 1) / lines_per_chunk_);
   }
-  /// What a chunk holds: tiles go from left to right, then down.
-  Region region(int chunk) const noexcept;
-  /// Whether chunks are not written as they are packed.
+  /// The pixels of a chunk, counted from the level's upper left corner: tiles go from left to right, then
+  /// down.
+  PixelWindow window(int chunk) const noexcept;
+  /// True if chunks are not written as they are packed.
   bool compresses() const noexcept { return compression_.kind != CompressionKind::kNone; }
   /// Bytes of a packed line of so many pixels.
   std::size_t line_bytes(int width) const noexcept { return pixel_bytes_ * static_cast<std::size_t>(width); }
@@ -95,7 +90,7 @@ class ExrWriter {
 
   /// Packs and compresses a chunk in a slot. May run beside encode() and write() of other slots.
   Result<void> encode(std::size_t slot, int chunk, const Pack& pack);
-  /// What encode() left in the slot: a chunk as it is in the file.
+  /// The chunk that encode() left in the slot, as it is in the file.
   std::span<const std::byte> encoded(std::size_t slot) const;
   /// Writes an encoded chunk; chunks must come in order.
   Result<void> write(int chunk, std::span<const std::byte> encoded);

@@ -1,8 +1,6 @@
 // RegionReader: a part of an image as if it were an image, with no more decoded than it touches.
 #pragma once
 
-#include <OpenEXR/ImfHeader.h>
-
 #include <array>
 #include <memory>
 #include <optional>
@@ -15,21 +13,18 @@
 
 namespace spectile::io {
 
-/// The part of an image to read: x0, y0, x1, y1, inclusive, in the coordinates of the data window; all of it
-/// where none.
-using Crop = std::optional<std::array<int, 4>>;
-
 /// Reads the lines of a region of one part. Of tiled parts the tiles that it touches are decoded, of others
 /// the lines.
 class RegionReader {
  public:
-  /// The region of a part, limited to its data window. A note says so where it is. The input must outlive the
-  /// reader. Errors: kBadArgument for a region that is empty, or outside of the data window.
-  static Result<RegionReader> create(ExrInput& input, int part, const std::array<int, 4>& region,
+  /// The region of a part, in the coordinates of its data window, and clamped to it, which a note says. The
+  /// input must outlive the reader. Errors: kBadArgument for a region that is empty, or outside of the data
+  /// window.
+  static Result<RegionReader> create(ExrInput& input, int part, const PixelWindow& region,
                                      std::vector<std::string>& notes);
 
   /// The part's header with the region as data window.
-  const Imf::Header& header() const noexcept { return header_; }
+  const PartHeader& header() const noexcept { return header_; }
   /// The region's upper left corner, from that of the part's data window.
   std::array<int, 2> offset() const noexcept { return {x_, y_}; }
 
@@ -44,7 +39,7 @@ class RegionReader {
 
   ExrInput* input_ = nullptr;
   int part_ = 0;
-  Imf::Header header_;
+  PartHeader header_;
   int x_ = 0;
   int y_ = 0;
   int first_column_ = 0;  // that is decoded, from the data window's left
@@ -52,7 +47,7 @@ class RegionReader {
   int first_tile_ = 0;
   int last_tile_ = 0;
   std::shared_ptr<Strip> slab_;  // lines of the part, whole tiles or lines wide
-  int loaded_ = -1;              // which slab that is
+  int loaded_ = -1;              // the slab held, -1 for none
 };
 
 }  // namespace spectile::io

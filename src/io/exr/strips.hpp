@@ -1,8 +1,6 @@
 // Strips: runs of lines of some channels of one part, each channel a plane in its own sample type.
 #pragma once
 
-#include <OpenEXR/ImfPixelType.h>
-
 #include <cstddef>
 #include <memory>
 #include <spectile/lanes/sampled_spectra.hpp>
@@ -17,8 +15,8 @@ namespace spectile::io {
 /// A channel to read, in the type it is read as.
 struct PlaneSpec {
   std::string name;
-  Imf::PixelType type = Imf::HALF;
-  std::size_t sample_bytes() const { return type == Imf::HALF ? 2 : 4; }
+  SampleType type = SampleType::kHalf;
+  std::size_t sample_bytes() const { return io::sample_bytes(type); }
 };
 
 /// Lines first_line to first_line + lines - 1, counted from 0 at the top of the data window.
@@ -55,12 +53,32 @@ Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, 
 Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, int first_line, int lines);
 
 /// Lines worth reading at once: several of the input's chunks, some 16 MiB, never more than `height`.
-int strip_lines(const Imf::Header& header, const std::vector<PlaneSpec>& planes, int at_least);
+int strip_lines(const PartHeader& header, const std::vector<PlaneSpec>& planes, int at_least);
+
+/// Adds a strip's planes to what a read fills: `width` pixels a line, the first at x, y. For this room only.
+void add_slices(Imf::FrameBuffer& target, const std::vector<PlaneSpec>& planes, int x, int y, int width,
+                Strip& strip);
 
 /// Fills a strip's planes; an empty name leaves its plane alone. Errors: kBadFile.
 Result<void> fill_strip(ExrInput& input, int part, const std::vector<PlaneSpec>& planes, Strip& strip);
 
-int width_of(const Imf::Header& header);
-int height_of(const Imf::Header& header);
+/// Reads luminance with subsampled chroma, channels Y, RY, BY of a file's first part, which OpenEXR puts
+/// together as RGB.
+class LumaChromaReader {
+ public:
+  /// Errors: kBadFile.
+  static Result<std::unique_ptr<LumaChromaReader>> open(const std::string& path, int threads);
+  ~LumaChromaReader();
+
+  /// Fills the first three planes of a strip, of halves, whose upper left corner is at `left`, `top` within
+  /// the part's data window. Errors: kBadFile.
+  Result<void> fill(const PartHeader& header, int left, int top, Strip& strip);
+
+ private:
+  LumaChromaReader();
+  struct File;
+  std::string path_;
+  std::unique_ptr<File> file_;
+};
 
 }  // namespace spectile::io

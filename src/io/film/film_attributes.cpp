@@ -1,5 +1,4 @@
 // A film's options and counts as attributes of its file.
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <charconv>
@@ -13,14 +12,12 @@
 namespace spectile::io {
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;
-
-template <class Numbers>
-std::string joined(const Numbers& numbers) {
+template <class Range>
+std::string joined(const Range& numbers) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-/// Whole numbers or floats, spaces between; nothing for other text.
+/// Integers or floats, spaces between; nothing for other text.
 template <class T>
 std::optional<std::vector<T>> parse_numbers(const std::string& text) {
   std::vector<T> out;
@@ -40,11 +37,10 @@ std::optional<std::vector<T>> parse_numbers(const std::string& text) {
 /// Reads a header's texts one by one, and keeps the first thing that is wrong.
 class Reader {
  public:
-  Reader(const Imf::Header& header, const std::string& path) : header_(header), path_(path) {}
+  Reader(const PartHeader& header, const std::string& path) : header_(header), path_(path) {}
 
   std::string text(const std::string& name) {
-    const auto* attribute = header_.findTypedAttribute<Imf::StringAttribute>(name);
-    if (attribute != nullptr) return attribute->value();
+    if (auto found = header_.text(name)) return *std::move(found);
     fail(name);
     return {};
   }
@@ -72,7 +68,7 @@ class Reader {
   }
 
  private:
-  const Imf::Header& header_;
+  const PartHeader& header_;
   const std::string& path_;
   std::string wrong_;
 };
@@ -138,9 +134,9 @@ Result<void> read_responses(Reader& reader, FilmAccess::State& s, std::size_t co
 
 }  // namespace
 
-Texts film_attributes(const FilmAccess::State& s, const std::string& progress) {
+TextAttributes film_attributes(const FilmAccess::State& s, const std::string& progress) {
   const FilmOptions& o = s.options;
-  Texts out = {{kFilmAttribute, kFilmVersion}};
+  TextAttributes out = {{kFilmAttribute, kFilmVersion}};
   const auto add = [&](const char* name, std::string text) { out.emplace_back(name, std::move(text)); };
   add("spectileFilmProgress", progress);
   add("spectileFilmCrop", joined(std::array{s.window.x0, s.window.y0, s.window.x1, s.window.y1}));
@@ -173,24 +169,24 @@ Texts film_attributes(const FilmAccess::State& s, const std::string& progress) {
   return out;
 }
 
-Result<FilmDescription> film_of(const Imf::Header& header, const std::string& path) {
-  const auto* const mark = header.findTypedAttribute<Imf::StringAttribute>(kFilmAttribute);
-  if (mark == nullptr) return make_error(ErrorCode::kBadFile, "{}: not a partial film", path);
-  if (mark->value() != kFilmVersion) {
+Result<FilmDescription> film_of(const PartHeader& header, const std::string& path) {
+  const auto version = header.text(kFilmAttribute);
+  if (!version) return make_error(ErrorCode::kBadFile, "{}: not a partial film", path);
+  if (*version != kFilmVersion) {
     return make_error(ErrorCode::kBadFile, "{}: a partial film of version \"{}\"; this tool reads {}", path,
-                      mark->value(), kFilmVersion);
+                      *version, kFilmVersion);
   }
   Reader reader(header, path);
   FilmOptions o;
   FilmDescription out;
   out.progress = reader.text("spectileFilmProgress");
-  const Imath::Box2i& display = header.displayWindow();
-  if (display.min != Imath::V2i(0, 0)) {
+  const PixelWindow& display = header.display_window();
+  if (display.x0 != 0 || display.y0 != 0) {
     return make_error(ErrorCode::kBadFile, "{}: a film whose display window begins at {}, {}, not 0, 0", path,
-                      display.min.x, display.min.y);
+                      display.x0, display.y0);
   }
-  o.width = display.max.x + 1;
-  o.height = display.max.y + 1;
+  o.width = display.x1;
+  o.height = display.y1;
   const auto crop = reader.numbers<int>("spectileFilmCrop", 4);
   o.crop = PixelWindow{crop[0], crop[1], crop[2], crop[3]};
   const auto filter = PixelFilter::parse(reader.text("spectileFilmFilter"));

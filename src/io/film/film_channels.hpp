@@ -8,6 +8,7 @@
 
 #include "src/film/state.hpp"
 #include "src/io/exr/exr_input.hpp"
+#include "src/io/exr/exr_writer.hpp"
 
 namespace spectile::io {
 
@@ -26,16 +27,15 @@ inline constexpr const char* kFilmAttribute = "spectileFilm";
 inline constexpr const char* kFilmVersion = "1.0";
 
 /// All that a film is made from again, and what it has counted.
-std::vector<std::pair<std::string, std::string>> film_attributes(const FilmAccess::State& state,
-                                                                 const std::string& progress);
+TextAttributes film_attributes(const FilmAccess::State& state, const std::string& progress);
 
-/// What a file's attributes say of the film in it.
+/// A film as a file's attributes describe it.
 struct FilmDescription {
   std::unique_ptr<FilmAccess::State> state;  ///< without tiles
   std::string progress;
 };
 
 /// Errors: kBadFile, naming the attribute that is missing or damaged.
-Result<FilmDescription> film_of(const Imf::Header& header, const std::string& path);
+Result<FilmDescription> film_of(const PartHeader& header, const std::string& path);
 
 }  // namespace spectile::io

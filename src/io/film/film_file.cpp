@@ -1,5 +1,4 @@
 // Partial films: saving and loading their limbs.
-#include <OpenEXR/ImfChannelList.h>
 
 #include <algorithm>
 #include <bit>
@@ -43,21 +42,24 @@ class SaveJob : public io::MemoryJob {
  public:
   SaveJob(const State& s, const PixelWindow& window, const std::vector<io::FilmLimb>& limbs, bool preview,
           const kernels::KernelTable& kernels)
-      : s_(s), window_(window), limbs_(limbs), preview_(preview), kernels_(kernels), pixels_(s) {}
+      : MemoryJob(2 * kPreviewChannels * padded(window)),
+        s_(s),
+        window_(window),
+        limbs_(limbs),
+        preview_(preview),
+        kernels_(kernels),
+        pixels_(s) {}
 
   std::vector<io::ChannelSpec> channels() const {
     std::vector<io::ChannelSpec> out;
     for (const io::FilmLimb& limb : limbs_) {
-      out.push_back({limb.name + ".hi", EXR_PIXEL_UINT});
-      out.push_back({limb.name + ".lo", EXR_PIXEL_UINT});
+      out.push_back({limb.name + ".hi", SampleType::kUint32});
+      out.push_back({limb.name + ".lo", SampleType::kUint32});
     }
     for (const char* name : {"R", "G", "B"}) {
-      if (preview_) out.push_back({name, EXR_PIXEL_HALF});
+      if (preview_) out.push_back({name, SampleType::kHalf});
     }
     return out;
-  }
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    return MemoryJob::prepare(writer, slots, 2 * kPreviewChannels * padded());
   }
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& /*stats*/) override {
@@ -74,9 +76,10 @@ class SaveJob : public io::MemoryJob {
   }
 
  private:
-  std::size_t padded() const {
-    return blocks_for(static_cast<std::size_t>(window_.width())) * kLanesPerBlock;
+  static std::size_t padded(const PixelWindow& window) {
+    return blocks_for(static_cast<std::size_t>(window.width())) * kLanesPerBlock;
   }
+  std::size_t padded() const { return padded(window_); }
   float* preview_row(std::size_t slot, std::size_t c) { return row(slot) + c * padded(); }
 
   void pack_tile(std::size_t slot, const std::int64_t* tile, int x0, int x1, int y, std::byte* packed) {
@@ -137,9 +140,7 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   }
   if (s.overflown) return film_overflow(s);
   const PixelWindow window = touched_window(s);
-  const Imath::Box2i display({0, 0}, {s.options.width - 1, s.options.height - 1});
-  const Imath::Box2i data({window.x0, window.y0}, {window.x1 - 1, window.y1 - 1});
-  const Imf::Header header(display, data);
+  const io::PartHeader header({0, 0, s.options.width, s.options.height}, window);
   const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
   SaveJob job(s, window, limbs, s.options.xyz.has_value(), *kernels);
   // OpenEXRCore counts channels in 16 bits, with a sign; beyond, it drops all without a word.
@@ -151,16 +152,10 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   io::ImageSpec spec;
   spec.source = &header;
   spec.channels = job.channels();
-  spec.compression = options.compression;
   spec.text_attributes = io::film_attributes(s, progress);
-  const std::size_t slots = io::slot_count(spec, window.width(), tiles::thread_count(options.threads));
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
-  SPECTILE_TRY(job.prepare(*writer, slots));
-  const auto report = io::convert(job, *writer, slots, window.height(), options,
-                                  [](const io::LineStats&) { return std::optional<Error>(); });
-  if (!report) return report.error();
+  SPECTILE_ASSIGN(const auto report, io::run_image_job({job, path, std::move(spec), options, {}, {}}));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return FilmFileReport{report->bytes_written, seconds.count()};
+  return FilmFileReport{report.bytes_written, seconds.count()};
 }
 
 /// Lines to read at once: a row of tiles, or as many as fit into some memory.
@@ -174,7 +169,7 @@ Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::Fil
                         const PixelWindow& data) {
   std::vector<io::PlaneSpec> planes;
   for (const io::FilmLimb& limb : limbs) {
-    for (const char* end : {".hi", ".lo"}) planes.push_back({limb.name + end, Imf::UINT});
+    for (const char* end : {".hi", ".lo"}) planes.push_back({limb.name + end, SampleType::kUint32});
   }
   const int step = lines_at_once(planes.size(), data.width());
   for (int first = 0; first < data.height(); first += step) {
@@ -216,21 +211,19 @@ void copy_weights(State& s) {
 
 Result<LoadedFilm> load(const std::string& path, int threads) {
   SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
-  const Imf::Header& header = input->header(0);
+  const io::PartHeader& header = input->header(0);
   SPECTILE_ASSIGN(auto described, io::film_of(header, path));
   State& s = *described.state;
-  const Imath::Box2i& box = header.dataWindow();
-  const PixelWindow data = {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
+  const PixelWindow& data = header.data_window();
   if (data.x0 < s.window.x0 || data.y0 < s.window.y0 || data.x1 > s.window.x1 || data.y1 > s.window.y1) {
     return make_error(ErrorCode::kBadFile, "{}: holds pixels beyond the film's crop window", path);
   }
   const std::vector<io::FilmLimb> limbs = io::film_limbs(s.layout);
   for (const io::FilmLimb& limb : limbs) {
     for (const char* end : {".hi", ".lo"}) {
-      const Imf::Channel* const channel = header.channels().findChannel(limb.name + end);
-      if (channel == nullptr || channel->type != Imf::UINT || channel->xSampling != 1 ||
-          channel->ySampling != 1) {
-        return make_error(ErrorCode::kBadFile, "{}: channel {}{} is missing or not of whole numbers", path,
+      const io::StoredChannel* const channel = header.find(limb.name + end);
+      if (channel == nullptr || channel->type != SampleType::kUint32 || channel->subsampled()) {
+        return make_error(ErrorCode::kBadFile, "{}: channel {}{} is missing or not of integers", path,
                           limb.name, end);
       }
     }

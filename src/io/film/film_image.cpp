@@ -22,12 +22,12 @@ struct Picture {
 /// Lines of a picture, floats or halves.
 class PictureJob : public io::MemoryJob {
  public:
-  PictureJob(const Picture& picture, PixelType pixel, const kernels::KernelTable& kernels)
-      : picture_(picture), pixel_(pixel), kernels_(kernels) {}
+  PictureJob(const Picture& picture, SampleType pixel, const kernels::KernelTable& kernels)
+      : MemoryJob(2 * blocks_for(picture.width) * kLanesPerBlock),
+        picture_(picture),
+        pixel_(pixel),
+        kernels_(kernels) {}
 
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    return MemoryJob::prepare(writer, slots, 2 * padded());
-  }
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& stats) override {
     const std::size_t width = picture_.width;
@@ -36,7 +36,7 @@ class PictureJob : public io::MemoryJob {
     for (std::size_t p = 0; p < picture_.planes; ++p) {
       const float* const from =
           picture_.data + p * picture_.plane_floats + static_cast<std::size_t>(line) * width;
-      if (pixel_ == PixelType::kFloat) {
+      if (pixel_ == SampleType::kFloat) {
         if (packed != nullptr) std::memcpy(packed + writer().channel_offset(p), from, width * sizeof(float));
         continue;
       }
@@ -44,7 +44,7 @@ class PictureJob : public io::MemoryJob {
         // Beyond the largest half: written as that, and counted. Infinite variance stays what it is.
         const bool beyond = std::abs(from[x]) > kernels::kHalfMax && std::abs(from[x]) < INFINITY;
         work[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
-        stats.limited += beyond ? 1 : 0;
+        stats.clamped += beyond ? 1 : 0;
       }
       if (packed == nullptr) continue;
       kernels_.float_to_half(halves, work, padded());
@@ -55,13 +55,13 @@ class PictureJob : public io::MemoryJob {
  private:
   std::size_t padded() const { return blocks_for(picture_.width) * kLanesPerBlock; }
   Picture picture_;
-  PixelType pixel_;
+  SampleType pixel_;
   const kernels::KernelTable& kernels_;
 };
 
-std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, PixelType pixel) {
+std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, SampleType pixel) {
   std::vector<io::ChannelSpec> out;
-  const exr_pixel_type_t type = pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  const SampleType type = pixel;
   const auto add = [&](std::initializer_list<const char*> names) {
     for (const char* name : names) out.push_back({name, type});
   };
@@ -92,34 +92,25 @@ std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, Pixe
   return out;
 }
 
-using Texts = std::vector<std::pair<std::string, std::string>>;
-
 Result<ImageReport> write(const Picture& picture, const FilmOptions& film,
-                          const std::vector<io::ChannelSpec>& channels, const Texts& texts,
+                          const std::vector<io::ChannelSpec>& channels, const io::TextAttributes& texts,
                           const std::string& path, const ImageOptions& options) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const PixelWindow w = film.crop.value_or(PixelWindow{0, 0, film.width, film.height});
-  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1});
-  const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
-  const Imf::Header header(display, data);
+  const io::PartHeader header({0, 0, film.width, film.height}, w);
+  PictureJob job(picture, options.pixel, *kernels);
   io::ImageSpec spec;
   spec.source = &header;
   spec.channels = channels;
-  spec.compression = options.compression;
   spec.text_attributes = texts;
-  const std::size_t slots = io::slot_count(spec, w.width(), tiles::thread_count(options.threads));
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
-  PictureJob job(picture, options.pixel, *kernels);
-  SPECTILE_TRY(job.prepare(*writer, slots));
-  return io::convert(job, *writer, slots, w.height(), options,
-                     [](const io::LineStats&) { return std::optional<Error>(); });
+  return io::run_image_job({job, path, std::move(spec), options, {}, {}});
 }
 
 Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t sensor,
                                 const std::string& path, const ImageOptions& options) {
   SPECTILE_ASSIGN(auto development, FilmDevelopment::create(film, layer, sensor));
   SPECTILE_TRY(development.update({options.threads}));
-  Texts texts;
+  io::TextAttributes texts;
   if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
   if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
   if (layer == FilmLayer::kSpectrum) {
@@ -148,7 +139,7 @@ Result<ImageReport> write_exact(const ProceduralScene& scene, const FilmOptions&
           }
         }
       });
-  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  const SampleType type = options.pixel;
   return write({pixels.data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
                options);
 }

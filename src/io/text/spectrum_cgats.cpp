@@ -135,7 +135,7 @@ Result<double> number_of(const TextFile& file, const Table& table, std::string_v
   if (!value || !(*value >= least && *value <= most) || (whole && std::trunc(*value) != *value)) {
     return line_error(file, found->second.line,
                       fmt::format("{} {} is not a {} {} to {}", keyword, quoted(found->second.text),
-                                  whole ? "whole number," : "number,", least, most));
+                                  whole ? "integer," : "number,", least, most));
   }
   return *value;
 }

@@ -13,7 +13,7 @@
 namespace spectile {
 namespace {
 
-/// What a spectrum needs beyond what a list of samples does. Lines are named where they are given.
+/// Checks of a spectrum beyond those of a list of samples. Lines are named where they are given.
 Result<void> check_samples(const io::TextFile& file, const io::SampleLines& samples) {
   const auto& w = samples.wavelengths_nm;
   for (std::size_t i = 0; i < w.size(); ++i) {

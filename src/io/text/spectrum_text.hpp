@@ -45,7 +45,7 @@ Result<SampleLines> read_columns(const TextFile& file);
 /// "name,wavelength_nm,value" that are put together by name; see load_spectra.
 Result<std::vector<SampleLines>> read_all_columns(const TextFile& file);
 
-/// Whether a text is CGATS: its first word is SPECT, CMF or CGATS and something, or a line begins with
+/// True if a text is CGATS: its first word is SPECT, CMF or CGATS and something, or a line begins with
 /// SPECTRAL_BANDS or BEGIN_DATA.
 bool is_cgats(const TextFile& file);
 

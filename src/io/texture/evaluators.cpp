@@ -10,10 +10,10 @@ namespace spectile::io {
 namespace {
 
 /// The piece's samples of a plane as floats, at a multiple of 64 bytes; zeros up to a whole block.
-void load(const kernels::KernelTable& kernels, const Piece& piece, std::size_t plane, Imf::PixelType type,
+void load(const kernels::KernelTable& kernels, const Piece& piece, std::size_t plane, SampleType type,
           float* to) {
   const std::byte* const row = piece.strip.row(plane, piece.line);
-  if (type == Imf::HALF) {
+  if (type == SampleType::kHalf) {
     alignas(64) std::uint16_t halves[kLanesPerBlock] = {};
     std::memcpy(halves, row + piece.x * sizeof(std::uint16_t), piece.n * sizeof(std::uint16_t));
     kernels.half_to_float(to, halves, kLanesPerBlock);
@@ -31,7 +31,7 @@ void CompactEvaluator::piece(const kernels::KernelTable& kernels, const Piece& p
   bool bad[kLanesPerBlock] = {};
   bool any_bad = false;
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    load(kernels, piece, k, Imf::FLOAT, rows[k]);
+    load(kernels, piece, k, SampleType::kFloat, rows[k]);
     for (std::size_t i = 0; i < piece.n; ++i) {
       bad[i] = bad[i] || !(std::fabs(rows[k][i]) <= rows_.limits()[k]);
       any_bad = any_bad || bad[i];
@@ -57,9 +57,9 @@ FullEvaluator::FullEvaluator(const Bands& bands, const std::vector<PlaneSpec>& c
     Mixture mixture;
     mixture.first = mixture.second = plane(channels[band]);
     if (next > 0 && next < list.size() && nm > list[band].centre_nm) {
-      const double way = list[next].centre_nm - list[band].centre_nm;
+      const double span_nm = list[next].centre_nm - list[band].centre_nm;
       mixture.second = plane(channels[next]);
-      mixture.t = static_cast<float>((nm - list[band].centre_nm) / way);
+      mixture.t = static_cast<float>((nm - list[band].centre_nm) / span_nm);
     }
     mixtures_.push_back(mixture);
   }

@@ -1,6 +1,5 @@
 // SpectralTexture: the spectra of a part of an image at the wavelengths asked for, whichever way they are
 // stored.
-#include <OpenEXR/ImfChannelList.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,14 +22,11 @@ namespace {
 
 using io::Strip;
 
-Result<void> check_region(const Region& r, int width, int height) {
-  const auto fits = [](std::int64_t from, std::int64_t size, std::int64_t whole) {
-    return from >= 0 && size > 0 && from + size <= whole;
-  };
-  if (fits(r.x, r.width, width) && fits(r.y, r.height, height)) return {};
+Result<void> check_region(const PixelWindow& r, int width, int height) {
+  if (!r.empty() && r.x0 >= 0 && r.y0 >= 0 && r.x1 <= width && r.y1 <= height) return {};
   return make_error(ErrorCode::kBadArgument,
-                    "a region of {} x {} pixels at {},{} is not one of the image's {} x {}", r.width,
-                    r.height, r.x, r.y, width, height);
+                    "a region of {} x {} pixels at {},{} is not one of the image's {} x {}",
+                    std::int64_t{r.x1} - r.x0, std::int64_t{r.y1} - r.y0, r.x0, r.y0, width, height);
 }
 
 /// Bands centred at wavelengths, edges halfway; unlike Bands::from_centres(), the first may reach down to 0.
@@ -76,20 +72,20 @@ void evaluate_line(const kernels::KernelTable& kernels, const io::Evaluator& eva
 
 }  // namespace
 
-/// What the copies of a texture share.
+/// The state that copies of a texture share.
 class SpectralTexture::Image {
  public:
   static Result<std::shared_ptr<Image>> open(const std::string& path, int threads);
 
-  int width() const { return io::width_of(file().header(part_)); }
-  int height() const { return io::height_of(file().header(part_)); }
+  int width() const { return file().header(part_).width(); }
+  int height() const { return file().header(part_).height(); }
   Quantity quantity() const { return source_ ? source_->upsampler().quantity() : quantity_; }
   const Bands& bands() const { return source_ ? source_->upsampler().bands() : bands_; }
   bool compact() const { return source_ != nullptr; }
   const std::string& path() const { return file().path(); }
   std::uint64_t samples_read() const { return samples_read_; }
 
-  Result<void> evaluate(const Region& region, SampledSpectraSpan spectra);
+  Result<void> evaluate(const PixelWindow& region, SampledSpectraSpan spectra);
 
  private:
   Result<void> choose_channels(const io::SpectralChannels& channels);
@@ -114,7 +110,7 @@ Result<std::shared_ptr<SpectralTexture::Image>> SpectralTexture::Image::open(con
   image->threads_ = tiles::thread_count(threads);
   SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, image->threads_));
   for (int part = 0; part < input->parts(); ++part) {
-    if (input->deep(part)) continue;
+    if (input->header(part).deep()) continue;
     image->part_ = part;
     if (io::claims_coefficients(input->header(part))) {
       SPECTILE_ASSIGN(image->source_, io::CoefficientSource::open(std::move(input)));
@@ -136,15 +132,7 @@ Result<void> SpectralTexture::Image::choose_channels(const io::SpectralChannels&
   const auto bands = Bands::from_centres(channels.centres_nm);
   if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path(), bands.error().message);
   SPECTILE_ASSIGN(bands_, io::with_plan(input_->header(part_), *bands, path()));
-  for (const std::string& name : channels.names) {
-    const Imf::Channel& channel = input_->header(part_).channels()[name.c_str()];
-    if (channel.xSampling != 1 || channel.ySampling != 1) {
-      return make_error(ErrorCode::kBadFile,
-                        "{}: channel \"{}\" is subsampled {} x {}, which is not supported", path(), name,
-                        channel.xSampling, channel.ySampling);
-    }
-    channels_.push_back({name, channel.type == Imf::HALF ? Imf::HALF : Imf::FLOAT});
-  }
+  SPECTILE_ASSIGN(channels_, io::band_planes(input_->header(part_), channels, path()));
   return {};
 }
 
@@ -168,19 +156,19 @@ Result<void> SpectralTexture::Image::read(const std::vector<io::PlaneSpec>& plan
   return {};
 }
 
-Result<void> SpectralTexture::Image::evaluate(const Region& region, SampledSpectraSpan spectra) {
+Result<void> SpectralTexture::Image::evaluate(const PixelWindow& region, SampledSpectraSpan spectra) {
   SPECTILE_TRY(check_region(region, width(), height()));
-  const auto w = static_cast<std::size_t>(region.width);
-  SPECTILE_TRY(shape::same_lanes(w * static_cast<std::size_t>(region.height), spectra.lanes));
+  const auto w = static_cast<std::size_t>(region.width());
+  SPECTILE_TRY(shape::same_lanes(w * static_cast<std::size_t>(region.height()), spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   SPECTILE_ASSIGN(const auto evaluator, evaluator_for(spectra.bands));
   const std::vector<io::PlaneSpec>& planes = evaluator->planes();
   const std::size_t bands = spectra.bands.count();
   const int step = io::strip_lines(file().header(part_), planes, 1);
-  for (int done = 0; done < region.height; done += step) {
-    const int first = region.y + done;
-    const int lines = std::min(step, region.height - done);
+  for (int done = 0; done < region.height(); done += step) {
+    const int first = region.y0 + done;
+    const int lines = std::min(step, region.height() - done);
     SPECTILE_ASSIGN(auto strip, io::make_strip(planes, width(), first, lines));
     SPECTILE_TRY(read(planes, *strip));
     // Lines write different lanes. Some thousands of pixels are worth a thread's while.
@@ -189,7 +177,7 @@ Result<void> SpectralTexture::Image::evaluate(const Region& region, SampledSpect
     execution.tile_lanes = kLanesPerBlock * std::max<std::size_t>(1, 4096 / w);
     tiles::for_blocks(static_cast<std::size_t>(lines), execution, [&](std::size_t begin, std::size_t count) {
       for (std::size_t line = begin; line < begin + count; ++line) {
-        const io::Piece piece = {*strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x),
+        const io::Piece piece = {*strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x0),
                                  w};
         evaluate_line(*kernels, *evaluator, piece, (static_cast<std::size_t>(done) + line) * w, spectra);
       }
@@ -235,19 +223,20 @@ std::uint64_t SpectralTexture::samples_read() const noexcept {
   return image_->samples_read();
 }
 
-Result<SampledSpectra> SpectralTexture::evaluate(const Region& region,
+Result<SampledSpectra> SpectralTexture::evaluate(const PixelWindow& region,
                                                  std::span<const double> wavelengths_nm) const {
   return io::contained<SampledSpectra>(image_->path(), [&]() -> Result<SampledSpectra> {
     SPECTILE_TRY(check_region(region, width(), height()));
     SPECTILE_ASSIGN(const auto bands, bands_at(wavelengths_nm));
-    SPECTILE_ASSIGN(auto spectra, SampledSpectra::create(bands, static_cast<std::size_t>(region.width) *
-                                                                    static_cast<std::size_t>(region.height)));
+    SPECTILE_ASSIGN(auto spectra,
+                    SampledSpectra::create(bands, static_cast<std::size_t>(region.width()) *
+                                                      static_cast<std::size_t>(region.height())));
     SPECTILE_TRY(image_->evaluate(region, spectra.span()));
     return spectra;
   });
 }
 
-Result<void> SpectralTexture::evaluate(const Region& region, SampledSpectraSpan spectra) const {
+Result<void> SpectralTexture::evaluate(const PixelWindow& region, SampledSpectraSpan spectra) const {
   return io::contained<void>(image_->path(), [&] { return image_->evaluate(region, spectra); });
 }
 

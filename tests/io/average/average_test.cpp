@@ -147,11 +147,11 @@ TEST_F(AverageImages, KeepsTheWidestTypeOrTheOneAskedFor) {
   std::vector<std::string> mixed = {write("h.exr", render(1, Imf::HALF)), write("f.exr", render(2))};
   EXPECT_EQ(average(mixed).planes.at("R").type, Imf::FLOAT);
   AverageOptions options;
-  options.stored = PixelType::kHalf;
+  options.stored = SampleType::kHalf;
   const test::Picture halves = average(mixed, options);
   EXPECT_EQ(halves.planes.at("R").type, Imf::HALF);
   EXPECT_EQ(halves.planes.at("id").type, Imf::UINT);
-  options.stored = PixelType::kFloat;
+  options.stored = SampleType::kFloat;
   EXPECT_EQ(average({mixed[0]}, options).planes.at("R").type, Imf::FLOAT);
 
   // Just above the middle of two halves, by less than a float can tell.
@@ -160,14 +160,14 @@ TEST_F(AverageImages, KeepsTheWidestTypeOrTheOneAskedFor) {
   test::Picture above = test::blank(1, 1);
   above.add("Y", Imf::FLOAT, [](int, int) { return 1 + 0x1p-11 + 0x1p-23; });
   options = weighted({1000, 1});
-  options.stored = PixelType::kHalf;
+  options.stored = SampleType::kHalf;
   const std::vector<std::string> two = {write("middle.exr", middle), write("above.exr", above)};
   EXPECT_EQ(average(two, options).at("Y", 0, 0), 1 + 0x1p-10);
 
   options = {};
   test::Picture large = test::blank(4, 1);
   large.add("Y", Imf::FLOAT, [](int x, int) { return x == 1 ? 70000 : x == 2 ? -1e9 : 1; });
-  options.stored = PixelType::kHalf;
+  options.stored = SampleType::kHalf;
   const test::Picture limited = average({write("l.exr", large)}, options);
   EXPECT_EQ(limited.at("Y", 1, 0), 65504);
   EXPECT_EQ(limited.at("Y", 2, 0), -65504);
@@ -183,7 +183,7 @@ TEST_F(AverageImages, OfManyIsThatOfAll) {
     inputs.push_back(write("m" + std::to_string(i) + ".exr", picture));
   }
   AverageOptions options;
-  options.stored = PixelType::kFloat;
+  options.stored = SampleType::kFloat;
   const test::Picture out = average(inputs, options);
   for (int i = 0; i < 15; ++i) {
     double sum = 0;

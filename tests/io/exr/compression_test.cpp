@@ -25,13 +25,13 @@ Imf::Compression in_file(CompressionKind kind) {
 
 /// True if a spectral channel comes back to the bit: DWA loses only in R, G, B and Y, B44 only in half, PXR24
 /// in float.
-bool keeps_bits(CompressionKind kind, PixelType pixel) {
+bool keeps_bits(CompressionKind kind, SampleType pixel) {
   switch (kind) {
     case CompressionKind::kPxr24:
-      return pixel == PixelType::kHalf;
+      return pixel == SampleType::kHalf;
     case CompressionKind::kB44:
     case CompressionKind::kB44a:
-      return pixel == PixelType::kFloat;
+      return pixel == SampleType::kFloat;
     default:
       return true;
   }
@@ -43,7 +43,7 @@ bool is_dwa(CompressionKind kind) {
 
 class Compressions : public testing::Test {
  protected:
-  test::Picture convert(const std::string& input, Compression compression, PixelType pixel,
+  test::Picture convert(const std::string& input, Compression compression, SampleType pixel,
                         Quantity quantity = Quantity::kReflectance, const char* bands = "400:700:37.5") {
     UpsampleImageOptions options;
     options.compression = compression;
@@ -66,7 +66,7 @@ class Compressions : public testing::Test {
 
   /// Compares the file in every compression with the one in none.
   void check_all(const std::string& input, const std::string& what) {
-    for (const auto pixel : {PixelType::kHalf, PixelType::kFloat}) {
+    for (const auto pixel : {SampleType::kHalf, SampleType::kFloat}) {
       const test::Picture plain = convert(input, {CompressionKind::kNone, -1}, pixel);
       for (const auto kind : kAllKinds) {
         const test::Picture out = convert(input, {kind, -1}, pixel);
@@ -76,7 +76,8 @@ class Compressions : public testing::Test {
         for (const auto& [name, plane] : plain.planes) {
           const bool spectral = name.starts_with("T.");
           // The preview is half, whatever the spectra are.
-          if (!keeps_bits(kind, spectral ? pixel : PixelType::kHalf) || (!spectral && is_dwa(kind))) continue;
+          if (!keeps_bits(kind, spectral ? pixel : SampleType::kHalf) || (!spectral && is_dwa(kind)))
+            continue;
           EXPECT_TRUE(out.planes.at(name) == plane)
               << what << ", " << name << ", " << Compression{kind, -1}.description();
         }
@@ -120,10 +121,10 @@ TEST_F(Compressions, ZipLevelsChangeTheSizeOnly) {
   }
   test::write_scanlines(folder_ / "in.exr", picture);
   for (const auto kind : {CompressionKind::kZip, CompressionKind::kZips}) {
-    const test::Picture first = convert(folder_ / "in.exr", {kind, 1}, PixelType::kHalf);
+    const test::Picture first = convert(folder_ / "in.exr", {kind, 1}, SampleType::kHalf);
     const auto fast = std::filesystem::file_size(folder_ / "out.exr");
     for (int level = 2; level <= 9; ++level) {
-      const test::Picture out = convert(folder_ / "in.exr", {kind, level}, PixelType::kHalf);
+      const test::Picture out = convert(folder_ / "in.exr", {kind, level}, SampleType::kHalf);
       EXPECT_TRUE(out.planes == first.planes) << level;
     }
     EXPECT_LT(std::filesystem::file_size(folder_ / "out.exr"), fast);
@@ -134,8 +135,8 @@ TEST_F(Compressions, Pxr24KeepsFifteenBitsOfFloatMantissas) {
   test::Picture picture = test::blank(100, 20);
   test::add_rgb_noise(picture, Imf::HALF, 40);
   test::write_scanlines(folder_ / "in.exr", picture);
-  const test::Picture plain = convert(folder_ / "in.exr", {CompressionKind::kNone, -1}, PixelType::kFloat);
-  const test::Picture out = convert(folder_ / "in.exr", {CompressionKind::kPxr24, -1}, PixelType::kFloat);
+  const test::Picture plain = convert(folder_ / "in.exr", {CompressionKind::kNone, -1}, SampleType::kFloat);
+  const test::Picture out = convert(folder_ / "in.exr", {CompressionKind::kPxr24, -1}, SampleType::kFloat);
   for (const auto& [name, plane] : plain.planes) {
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
       // 24 bits: sign, 8 of exponent, 15 of mantissa; rounded to the nearest.
@@ -159,8 +160,8 @@ TEST_F(Compressions, B44KeepsBlocksOfOneColorExactlyHoweverBright) {
   for (const auto kind : {CompressionKind::kB44, CompressionKind::kB44a}) {
     const auto quantity = Quantity::kIlluminant;
     const test::Picture plain =
-        convert(folder_ / "in.exr", {CompressionKind::kNone, -1}, PixelType::kHalf, quantity);
-    const test::Picture out = convert(folder_ / "in.exr", {kind, -1}, PixelType::kHalf, quantity);
+        convert(folder_ / "in.exr", {CompressionKind::kNone, -1}, SampleType::kHalf, quantity);
+    const test::Picture out = convert(folder_ / "in.exr", {kind, -1}, SampleType::kHalf, quantity);
     for (const auto& [name, plane] : plain.planes) {
       double worst = 0;
       for (std::size_t i = 0; i < picture.pixels(); ++i) {
@@ -181,7 +182,7 @@ TEST_F(Compressions, DwaLevelSetsTheLossOfThePreview) {
   test::write_scanlines(folder_ / "in.exr", picture);
   double before = -1;
   for (const int level : {1, 45, 500}) {
-    const test::Picture out = convert(folder_ / "in.exr", {CompressionKind::kDwaa, level}, PixelType::kHalf);
+    const test::Picture out = convert(folder_ / "in.exr", {CompressionKind::kDwaa, level}, SampleType::kHalf);
     double sum = 0;
     for (const char* name : {"R", "G", "B"}) {
       for (std::size_t i = 0; i < picture.pixels(); ++i) {

@@ -12,7 +12,12 @@ namespace {
 
 using test::Picture;
 using testing::HasSubstr;
+/// The first and the last pixel, both included.
 using Region = std::array<int, 4>;
+
+PixelWindow window_of(const Region& r) {
+  return PixelWindow::inclusive(r[0], r[1], r[2], r[3]);
+}
 
 constexpr int kWidth = 150;
 constexpr int kHeight = 97;
@@ -51,14 +56,14 @@ Picture rgb_picture(const Storage& storage) {
 }
 
 /// Expects a file to hold the region of another, all channels bit for bit.
-void expect_crop(const std::string& part, const std::string& whole, const Region& region) {
+void expect_crop(const std::string& part, const std::string& whole, const PixelWindow& region) {
   const Picture got = test::read_picture(part);
   const Picture want = test::read_picture(whole);
   const Imath::Box2i window = got.header.dataWindow();
-  EXPECT_EQ((Region{window.min.x, window.min.y, window.max.x, window.max.y}), region);
+  EXPECT_EQ((PixelWindow{window.min.x, window.min.y, window.max.x + 1, window.max.y + 1}), region);
   EXPECT_EQ(got.header.displayWindow(), want.header.displayWindow());
-  const int left = region[0] - want.header.dataWindow().min.x;
-  const int top = region[1] - want.header.dataWindow().min.y;
+  const int left = region.x0 - want.header.dataWindow().min.x;
+  const int top = region.y0 - want.header.dataWindow().min.y;
   ASSERT_EQ(got.planes.size(), want.planes.size());
   for (const auto& [name, plane] : got.planes) {
     const test::Plane& from = want.planes.at(name);
@@ -99,14 +104,14 @@ TEST_P(Regions, HaveThePixelsOfTheWholeConversion) {
   ASSERT_TRUE(upsample_image(in_, all_, upsample));
   for (const Region& region : regions()) {
     for (const int threads : {1, 3}) {
-      upsample.region = region;
+      upsample.region = window_of(region);
       upsample.threads = threads;
       const auto report = upsample_image(in_, part_, upsample);
       ASSERT_TRUE(report) << report.error().message;
       EXPECT_EQ(report->width, region[2] - region[0] + 1);
       EXPECT_EQ(report->height, region[3] - region[1] + 1);
       EXPECT_TRUE(report->notes.empty());
-      expect_crop(part_, all_, region);
+      expect_crop(part_, all_, window_of(region));
     }
   }
 }
@@ -116,7 +121,7 @@ TEST_P(Regions, AreThoseOfEveryConversion) {
   write(in_, picture, GetParam());
   RelightImageOptions relight({"A", *illuminant("A")});
   ASSERT_TRUE(relight_image(in_, all_, relight));
-  relight.region = regions().back();
+  relight.region = window_of(regions().back());
   ASSERT_TRUE(relight_image(in_, part_, relight));
   expect_crop(part_, all_, *relight.region);
 
@@ -126,7 +131,7 @@ TEST_P(Regions, AreThoseOfEveryConversion) {
   write(folder_ / "spectral.exr", spectral, GetParam());
   ProjectImageOptions project;
   ASSERT_TRUE(project_image(folder_ / "spectral.exr", all_, project));
-  project.region = regions()[2];
+  project.region = window_of(regions()[2]);
   ASSERT_TRUE(project_image(folder_ / "spectral.exr", part_, project));
   expect_crop(part_, all_, *project.region);
 
@@ -136,7 +141,7 @@ TEST_P(Regions, AreThoseOfEveryConversion) {
   write(folder_ / "compact.exr", compact, GetParam());
   ExpandImageOptions expand;
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", all_, expand));
-  expand.region = regions()[6];
+  expand.region = window_of(regions()[6]);
   ASSERT_TRUE(expand_image(folder_ / "compact.exr", part_, expand));
   expect_crop(part_, all_, *expand.region);
 }
@@ -206,13 +211,13 @@ TEST_F(RegionTool, TilesOutsideAreNotRead) {
       in_, [](const std::vector<int>& tile) { return tile[0] == 1 && (tile[1] == 1 || tile[1] == 2); }, 4);
   EXPECT_FALSE(upsample_image(in_, out_, options)) << "the damage must be one";
   // Tiles 1 in x; 1 and 2 in y.
-  options.region = Region{22, 52, 53, 115};
+  options.region = window_of({22, 52, 53, 115});
   const auto report = upsample_image(in_, out_, options);
   ASSERT_TRUE(report) << report.error().message;
   expect_crop(out_, folder_ / "all.exr", *options.region);
   for (const Region& further :
        {Region{21, 52, 53, 115}, Region{22, 51, 53, 115}, Region{22, 52, 54, 115}, Region{22, 52, 53, 116}}) {
-    options.region = further;
+    options.region = window_of(further);
     EXPECT_FALSE(upsample_image(in_, folder_ / "none.exr", options));
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.exr"));
@@ -226,13 +231,13 @@ TEST_F(RegionTool, LinesOutsideAreNotRead) {
   // Chunks of sixteen lines.
   damage(
       in_, [](const std::vector<int>& chunk) { return chunk[0] == -24 || chunk[0] == -8; }, 1);
-  options.region = Region{10, -24, 20, 7};
+  options.region = window_of({10, -24, 20, 7});
   const auto report = upsample_image(in_, out_, options);
   ASSERT_TRUE(report) << report.error().message;
   expect_crop(out_, folder_ / "all.exr", *options.region);
-  options.region = Region{10, -25, 20, 7};
+  options.region = window_of({10, -25, 20, 7});
   EXPECT_FALSE(upsample_image(in_, out_, options));
-  options.region = Region{10, -24, 20, 8};
+  options.region = window_of({10, -24, 20, 8});
   EXPECT_FALSE(upsample_image(in_, out_, options));
 }
 
@@ -241,14 +246,14 @@ TEST_F(RegionTool, IsLimitedToTheDataWindowWithANote) {
   test::write_scanlines(in_, picture);
   UpsampleImageOptions options;
   ASSERT_TRUE(upsample_image(in_, folder_ / "all.exr", options));
-  options.region = Region{-2147483647 - 1, 100, 2147483647, 2147483647};
+  options.region = window_of({-2147483647 - 1, 100, 2147483647, 2147483647});
   const auto report = upsample_image(in_, out_, options);
   ASSERT_TRUE(report) << report.error().message;
-  expect_crop(out_, folder_ / "all.exr", {10, 100, 159, 106});
+  expect_crop(out_, folder_ / "all.exr", {10, 100, 160, 107});
   ASSERT_EQ(report->notes.size(), 1U);
   EXPECT_EQ(
       report->notes[0],
-      "the region -2147483648,100,2147483647,2147483647 is limited to 10,100,159,106: the data window is "
+      "the region -2147483648,100,2147483646,2147483646 is limited to 10,100,159,106: the data window is "
       "10,10,159,106");
 }
 
@@ -257,14 +262,14 @@ TEST_F(RegionTool, OutsideOrEmptyIsAnError) {
   test::write_scanlines(in_, picture);
   UpsampleImageOptions options;
   for (const Region& outside : {Region{0, 0, 9, 200}, Region{160, 0, 170, 200}, Region{0, 107, 200, 300}}) {
-    options.region = outside;
+    options.region = window_of(outside);
     const auto report = upsample_image(in_, out_, options);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::kBadArgument);
     EXPECT_THAT(report.error().message, HasSubstr("lies outside of the data window 10,10,159,106"));
   }
   for (const Region& empty : {Region{50, 50, 49, 60}, Region{50, 50, 60, 49}}) {
-    options.region = empty;
+    options.region = window_of(empty);
     EXPECT_THAT(upsample_image(in_, out_, options).error().message, HasSubstr("is empty"));
   }
   EXPECT_FALSE(std::filesystem::exists(out_));
@@ -276,10 +281,10 @@ TEST_F(RegionTool, WhatIsFoundIsCountedFromTheDataWindow) {
   picture.planes["G"].set(picture.index(2, 2), NAN);
   test::write_scanlines(in_, picture);
   UpsampleImageOptions options;
-  options.region = Region{110, 110, 180, 180};
+  options.region = window_of({110, 110, 180, 180});
   EXPECT_THAT(upsample_image(in_, out_, options).error().message,
               HasSubstr("1 non-finite pixel, the first at 60,50"));
-  options.region = Region{110, 110, 150, 180};
+  options.region = window_of({110, 110, 150, 180});
   EXPECT_TRUE(upsample_image(in_, out_, options));
 }
 
@@ -297,7 +302,7 @@ TEST_F(RegionTool, ReachesLuminanceAndChroma) {
   }
   UpsampleImageOptions options;
   ASSERT_TRUE(upsample_image(in_, folder_ / "all.exr", options));
-  options.region = Region{-3, 37, 44, 101};
+  options.region = window_of({-3, 37, 44, 101});
   const auto report = upsample_image(in_, out_, options);
   ASSERT_TRUE(report) << report.error().message;
   expect_crop(out_, folder_ / "all.exr", *options.region);

@@ -103,7 +103,7 @@ TEST_F(Tiles, HoldTheScanlinesPixelsWhateverTheSize) {
     for (const Method method : {kDefaultMethod, Method::kSigmoid}) {
       UpsampleImageOptions options;
       options.method = method;
-      options.pixel = height == 67 ? PixelType::kFloat : PixelType::kHalf;
+      options.pixel = height == 67 ? SampleType::kFloat : SampleType::kHalf;
       check(upsampling(options));
       options.store = Store::kCoefficients;
       check(upsampling(options));
@@ -144,10 +144,10 @@ TEST_F(Tiles, OfExpandedProjectedAndRelitImages) {
       return project_image(folder_ / "s.exr", output, options);
     });
   }
-  for (const Way way : {Way::kDirect, Way::kSpectra}) {
+  for (const RelightMode mode : {RelightMode::kDirect, RelightMode::kSpectra}) {
     check([&](const std::string& output, auto tile, int threads, bool skip) {
       RelightImageOptions options({"A", *illuminant("A")});
-      options.way = way;
+      options.mode = mode;
       apply(options, tile, threads, skip);
       return relight_image(in_, output, options);
     });

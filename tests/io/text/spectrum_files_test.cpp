@@ -255,7 +255,7 @@ TEST_F(SpectrumFiles, CgatsKeywordThatIsMissingIsNamed) {
 TEST_F(SpectrumFiles, CgatsBandsAreAWholeNumberFromTwoOn) {
   for (const char* bands : {"0", "1", "-3", "2.5", "1e18", "nan", "three", "100001"}) {
     expect_error(cgats("BANDS\t3", std::string("BANDS\t") + bands),
-                 "line 5: SPECTRAL_BANDS \"" + std::string(bands) + "\" is not a whole number, 2 to 100000");
+                 "line 5: SPECTRAL_BANDS \"" + std::string(bands) + "\" is not an integer, 2 to 100000");
   }
 }
 

@@ -30,7 +30,7 @@ class Texture : public testing::TestWithParam<Kind> {
  protected:
   static constexpr int kWidth = 130;
   static constexpr int kHeight = 7;
-  static constexpr Region kWhole = {0, 0, kWidth, kHeight};
+  static constexpr PixelWindow kWhole = {0, 0, kWidth, kHeight};
 
   Texture() : bands_(*Bands::uniform(400, 700, 15)) {
     UpsampleImageOptions options = test::options_of(GetParam());
@@ -39,7 +39,7 @@ class Texture : public testing::TestWithParam<Kind> {
     test::write_scanlines(folder_ / "in.exr", picture);
     test::upsample_to(Store::kCoefficients, folder_ / "in.exr", folder_ / "compact.exr", options);
     test::upsample_to(Store::kSpectra, folder_ / "in.exr", folder_ / "half.exr", options);
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     test::upsample_to(Store::kSpectra, folder_ / "in.exr", folder_ / "full.exr", options);
   }
 
@@ -48,7 +48,7 @@ class Texture : public testing::TestWithParam<Kind> {
     EXPECT_TRUE(texture) << texture.error().message;
     return *texture;
   }
-  static SampledSpectra evaluate(const SpectralTexture& texture, const Region& region,
+  static SampledSpectra evaluate(const SpectralTexture& texture, const PixelWindow& region,
                                  const std::vector<double>& wavelengths_nm) {
     auto spectra = texture.evaluate(region, wavelengths_nm);
     EXPECT_TRUE(spectra) << spectra.error().message;
@@ -158,18 +158,20 @@ TEST_P(Texture, RegionsAreCutFromTheWhole) {
     for (const int threads : {1, 2}) {
       const SpectralTexture texture = open(name, threads);
       const SampledSpectra whole = evaluate(texture, kWhole, wavelengths);
-      for (const Region& r : {Region{0, 0, 1, 1}, Region{kWidth - 1, kHeight - 1, 1, 1},
-                              Region{0, 3, kWidth, 1}, Region{63, 0, 2, kHeight},
-                              Region{kWidth - 1, 0, 1, kHeight}, Region{5, 2, 97, 4}, Region{64, 1, 64, 2}}) {
+      for (const PixelWindow& r :
+           {PixelWindow{0, 0, 1, 1}, PixelWindow{kWidth - 1, kHeight - 1, kWidth, kHeight},
+            PixelWindow{0, 3, kWidth, 4}, PixelWindow{63, 0, 65, kHeight},
+            PixelWindow{kWidth - 1, 0, kWidth, kHeight}, PixelWindow{5, 2, 102, 6},
+            PixelWindow{64, 1, 128, 3}}) {
         const SampledSpectra part = evaluate(texture, r, wavelengths);
-        ASSERT_EQ(part.lanes(), static_cast<std::size_t>(r.width * r.height));
+        ASSERT_EQ(part.lanes(), static_cast<std::size_t>(r.width() * r.height()));
         const auto source = [&](std::size_t lane, std::size_t band) {
-          const auto x = static_cast<std::size_t>(r.x) + lane % static_cast<std::size_t>(r.width);
-          const auto y = static_cast<std::size_t>(r.y) + lane / static_cast<std::size_t>(r.width);
+          const auto x = static_cast<std::size_t>(r.x0) + lane % static_cast<std::size_t>(r.width());
+          const auto y = static_cast<std::size_t>(r.y0) + lane / static_cast<std::size_t>(r.width());
           return whole.at(y * kWidth + x, band);
         };
         EXPECT_TRUE(test::same_lanes(part, test::batch_of(part.bands(), part.lanes(), source)))
-            << fmt::format("{} {} x {} at {},{}", name, r.width, r.height, r.x, r.y);
+            << fmt::format("{} {} x {} at {},{}", name, r.width(), r.height(), r.x0, r.y0);
       }
     }
   }
@@ -180,7 +182,7 @@ TEST_P(Texture, OneWavelengthIsThatOfMany) {
   for (int i = 0; i < 900; ++i) many.push_back(350 + 0.5 * i);
   for (const char* name : {"full.exr", "compact.exr"}) {
     const SpectralTexture texture = open(name);
-    const Region line = {7, 4, 70, 1};
+    const PixelWindow line = {7, 4, 77, 5};
     const SampledSpectra all = evaluate(texture, line, many);
     for (const std::size_t w : {0U, 115U, 130U, 300U, 301U, 899U}) {
       const SampledSpectra one = evaluate(texture, line, {many[w]});
@@ -194,7 +196,7 @@ TEST_P(Texture, OneWavelengthIsThatOfMany) {
 TEST_P(Texture, BatchOfTheCallersGetsTheSamplesAtItsBandsCentres) {
   const SpectralTexture texture = open("compact.exr");
   const Bands bands = *Bands::parse("450:650:12.5");
-  const Region region = {1, 1, 50, 3};
+  const PixelWindow region = {1, 1, 51, 4};
   const SampledSpectra want = evaluate(texture, region, centres_of(bands));
   SampledSpectra got = *SampledSpectra::constant(bands, 150, 7);
   ASSERT_TRUE(texture.evaluate(region, got.span()));

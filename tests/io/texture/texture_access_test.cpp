@@ -23,7 +23,7 @@ class TextureAccess : public testing::Test {
   TextureAccess() {
     UpsampleImageOptions options = test::options_of({Method::kSigmoid, Quantity::kUnbounded});
     options.bands = *Bands::uniform(400, 700, 15);
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     test::Picture picture = test::every_color(kWidth, kHeight);
     test::write_scanlines(folder_ / "in.exr", picture);
     test::upsample_to(Store::kSpectra, folder_ / "in.exr", folder_ / "full.exr", options);
@@ -42,14 +42,14 @@ class TextureAccess : public testing::Test {
 TEST_F(TextureAccess, OnlyChannelsNextToTheWavelengthsAreRead) {
   const SpectralTexture texture = open("full.exr");
   std::uint64_t before = 0;
-  const auto channels_read = [&](const Region& region, const std::vector<double>& wavelengths) {
+  const auto channels_read = [&](const PixelWindow& region, const std::vector<double>& wavelengths) {
     EXPECT_TRUE(texture.evaluate(region, wavelengths));
     const std::uint64_t samples = texture.samples_read() - before;
     before += samples;
-    return static_cast<double>(samples) / (kWidth * region.height);
+    return static_cast<double>(samples) / (kWidth * region.height());
   };
   EXPECT_EQ(texture.samples_read(), 0U);
-  const Region few = {3, 10, 20, 6};
+  const PixelWindow few = {3, 10, 23, 16};
   EXPECT_EQ(channels_read(few, {407.5}), 1);            // a centre
   EXPECT_EQ(channels_read(few, {408}), 2);              // between two
   EXPECT_EQ(channels_read(few, {408, 409, 421}), 2);    // between the same two
@@ -63,7 +63,7 @@ TEST_F(TextureAccess, OnlyChannelsNextToTheWavelengthsAreRead) {
 
 TEST_F(TextureAccess, CompactImagesReadTheirCoefficientsOnly) {
   const SpectralTexture texture = open("compact.exr");
-  ASSERT_TRUE(texture.evaluate({0, 5, 10, 3}, std::vector<double>{450, 500, 550, 600}));
+  ASSERT_TRUE(texture.evaluate({0, 5, 10, 8}, std::vector<double>{450, 500, 550, 600}));
   EXPECT_EQ(texture.samples_read(), std::uint64_t{4} * 3 * kWidth);
 }
 
@@ -89,10 +89,10 @@ TEST_F(TextureAccess, OnlyLinesOfTheRegionAreRead) {
     const SpectralTexture texture = open("cut.exr");
     const auto upper = texture.evaluate({0, 0, kWidth, kHeight / 2}, std::vector<double>{500});
     EXPECT_TRUE(upper) << name;
-    const auto lower = texture.evaluate({0, kHeight - 1, 1, 1}, std::vector<double>{500});
+    const auto lower = texture.evaluate({0, kHeight - 1, 1, kHeight}, std::vector<double>{500});
     EXPECT_EQ(test::code_of(lower), test::code(ErrorCode::kBadFile)) << name;
     // OpenEXR's stream does not get over the file's end: opened anew, the upper lines are there again.
-    EXPECT_TRUE(open("cut.exr").evaluate({5, 5, 5, 5}, std::vector<double>{500})) << name;
+    EXPECT_TRUE(open("cut.exr").evaluate({5, 5, 10, 10}, std::vector<double>{500})) << name;
   }
 }
 
@@ -100,7 +100,7 @@ TEST_F(TextureAccess, HighRegionsComeInSeveralReadings) {
   test::Picture picture = test::blank(3, 700);
   picture.add("T.500nm", Imf::FLOAT, [](int x, int y) { return x + 10 * y; });
   test::write_scanlines(folder_ / "high.exr", picture);
-  const auto spectra = open("high.exr").evaluate({1, 20, 2, 680}, std::vector<double>{500});
+  const auto spectra = open("high.exr").evaluate({1, 20, 3, 700}, std::vector<double>{500});
   ASSERT_TRUE(spectra);
   for (std::size_t i = 0; i < 1360; ++i)
     ASSERT_EQ(spectra->at(i, 0), static_cast<float>(201 + i % 2 + 10 * (i / 2)));
@@ -109,14 +109,16 @@ TEST_F(TextureAccess, HighRegionsComeInSeveralReadings) {
 TEST_F(TextureAccess, RegionsThatAreNotWithinTheImageAreRefusedWithTheirNumbers) {
   const SpectralTexture texture = open("compact.exr");
   constexpr int kMost = std::numeric_limits<int>::max();
-  for (const Region& r :
-       {Region{0, 0, 0, 1}, Region{0, 0, 1, 0}, Region{0, 0, -1, 5}, Region{-1, 0, 2, 2}, Region{0, -1, 2, 2},
-        Region{kWidth, 0, 1, 1}, Region{1, 0, kWidth, 1}, Region{0, kHeight - 1, 1, 2},
-        Region{kMost, 0, kMost, 1}, Region{1, 1, kMost, kMost}, Region{}}) {
+  for (const PixelWindow& r :
+       {PixelWindow{0, 0, 0, 1}, PixelWindow{0, 0, 1, 0}, PixelWindow{0, 0, -1, 5}, PixelWindow{-1, 0, 1, 2},
+        PixelWindow{0, -1, 2, 1}, PixelWindow{kWidth, 0, kWidth + 1, 1}, PixelWindow{1, 0, kWidth + 1, 1},
+        PixelWindow{0, kHeight - 1, 1, kHeight + 1}, PixelWindow{-kMost - 1, 0, kMost, 1},
+        PixelWindow{1, 1, kMost, kMost}, PixelWindow{}}) {
     const auto result = texture.evaluate(r, std::vector<double>{500});
     ASSERT_EQ(test::code_of(result), test::code(ErrorCode::kBadArgument));
     EXPECT_THAT(result.error().message,
-                HasSubstr(fmt::format("{} x {} pixels at {},{}", r.width, r.height, r.x, r.y)));
+                HasSubstr(fmt::format("{} x {} pixels at {},{}", std::int64_t{r.x1} - r.x0,
+                                      std::int64_t{r.y1} - r.y0, r.x0, r.y0)));
     EXPECT_THAT(result.error().message, HasSubstr("70 x 40"));
   }
   EXPECT_EQ(texture.samples_read(), 0U);
@@ -182,7 +184,7 @@ TEST_F(TextureAccess, SeveralThreadsMayAskOneTexture) {
       threads.emplace_back([&, t, copy = texture] {
         for (int line = 0; line < kHeight; ++line) {
           const int y = (line + static_cast<int>(t) * 7) % kHeight;
-          const auto part = (t % 2 == 0 ? texture : copy).evaluate({0, y, kWidth, 1}, wavelengths);
+          const auto part = (t % 2 == 0 ? texture : copy).evaluate({0, y, kWidth, y + 1}, wavelengths);
           for (std::size_t x = 0; part && x < kWidth; ++x) {
             for (std::size_t b = 0; b < wavelengths.size(); ++b) {
               wrong[t] += part->at(x, b) == whole->at(static_cast<std::size_t>(y) * kWidth + x, b) ? 0 : 1;
@@ -211,7 +213,7 @@ TEST(TextureLayout, NamesTypesAndStorageAreReadLiberally) {
   ASSERT_TRUE(texture) << texture.error().message;
   EXPECT_EQ(texture->quantity(), Quantity::kIlluminant);
   ASSERT_EQ(texture->bands().count(), 3U);
-  const auto spectra = texture->evaluate({30, 10, 5, 2}, std::vector<double>{400, 450, 500, 600});
+  const auto spectra = texture->evaluate({30, 10, 35, 12}, std::vector<double>{400, 450, 500, 600});
   ASSERT_TRUE(spectra) << spectra.error().message;
   // The second pixel of the second line is 31, 11.
   EXPECT_EQ(spectra->at(6, 0), 62);
@@ -236,8 +238,9 @@ TEST(TextureLayout, PublishedImagesOpen) {
   for (const std::string& path : test::shared_files("spectral")) {
     const auto texture = SpectralTexture::open(path);
     ASSERT_TRUE(texture) << texture.error().message;
-    const auto pixel = texture->evaluate({texture->width() / 2, texture->height() / 2, 1, 1},
-                                         std::vector<double>{450, 550.5, 650});
+    const int x = texture->width() / 2;
+    const int y = texture->height() / 2;
+    const auto pixel = texture->evaluate({x, y, x + 1, y + 1}, std::vector<double>{450, 550.5, 650});
     EXPECT_TRUE(pixel) << path;
   }
 }

@@ -2,11 +2,10 @@
 // the area that it covers.
 #include "src/io/convert/frame/area_filter.hpp"
 
-#include <OpenEXR/ImfPixelType.h>
-#include <half.h>
-
 #include <algorithm>
 #include <bit>
+
+#include "src/reference/half.hpp"
 
 namespace spectile::io {
 
@@ -38,8 +37,11 @@ namespace {
 template <class Sample>
 void average_across(const Sample* row, int from, int to, double* out) {
   const auto value = [row](std::int64_t i) {
-    if constexpr (sizeof(Sample) == 2) return static_cast<double>(static_cast<float>(row[i]));
-    return static_cast<double>(row[i]);
+    if constexpr (sizeof(Sample) == 2) {
+      return static_cast<double>(reference::float_from_half(row[i]));
+    } else {
+      return static_cast<double>(row[i]);
+    }
   };
   const int ratio = from / to;
   if (from == 2 * to) {
@@ -110,6 +112,6 @@ void AreaFilter::feed(std::size_t index, int y, const Sample* row, const Emit& e
 }
 
 template void AreaFilter::add(int y, const float* row, const Emit& emit);
-template void AreaFilter::add(int y, const Imath::half* row, const Emit& emit);
+template void AreaFilter::add(int y, const std::uint16_t* row, const Emit& emit);
 
 }  // namespace spectile::io

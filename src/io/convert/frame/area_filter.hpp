@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "src/io/exr/level_size.hpp"
+#include "src/io/exr/part_header.hpp"
 
 namespace spectile::io {
 
@@ -41,7 +41,7 @@ class AreaFilter {
   using Emit = std::function<void(std::size_t level, int line, const double* row)>;
   /// The tree must outlive it.
   explicit AreaFilter(const LevelTree& tree);
-  /// The image's line y. Sample: float or Imath's half.
+  /// The image's line y. Sample: float, or the bits of halves.
   template <class Sample>
   void add(int y, const Sample* row, const Emit& emit);
 

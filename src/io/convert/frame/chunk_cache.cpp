@@ -9,14 +9,14 @@
 namespace spectile::io {
 namespace {
 
-/// Calls visit(bytes) for each row of a region of the strip. False from it ends the visit.
+/// Calls visit(bytes) for each row of a window of the strip. False from it ends the visit.
 template <class Visit>
-bool each_row(const Strip& strip, const Region& region, Visit visit) {
-  for (int line = region.y; line < region.y + region.height; ++line) {
+bool each_row(const Strip& strip, const PixelWindow& window, Visit visit) {
+  for (int line = window.y0; line < window.y0 + window.height(); ++line) {
     for (std::size_t plane = 0; plane < strip.planes.size(); ++plane) {
       const std::size_t bytes = strip.sample_bytes(plane);
-      const std::byte* const row = strip.row(plane, line) + static_cast<std::size_t>(region.x) * bytes;
-      if (!visit(std::span(row, static_cast<std::size_t>(region.width) * bytes))) return false;
+      const std::byte* const row = strip.row(plane, line) + static_cast<std::size_t>(window.x0) * bytes;
+      if (!visit(std::span(row, static_cast<std::size_t>(window.width()) * bytes))) return false;
     }
   }
   return true;
@@ -50,10 +50,10 @@ class Hash {
   std::uint64_t state_[4] = {1, 2, 3, 4};
 };
 
-bool equals(const KnownChunk& chunk, const Strip& strip, const Region& region) {
-  if (chunk.region.width != region.width || chunk.region.height != region.height) return false;
+bool equals(const KnownChunk& chunk, const Strip& strip, const PixelWindow& window) {
+  if (chunk.window.width() != window.width() || chunk.window.height() != window.height()) return false;
   std::size_t at = 0;
-  const bool same = each_row(strip, region, [&](std::span<const std::byte> row) {
+  const bool same = each_row(strip, window, [&](std::span<const std::byte> row) {
     if (chunk.input.size() - at < row.size()) return false;
     if (std::memcmp(chunk.input.data() + at, row.data(), row.size()) != 0) return false;
     at += row.size();
@@ -64,28 +64,28 @@ bool equals(const KnownChunk& chunk, const Strip& strip, const Region& region) {
 
 }  // namespace
 
-ChunkCache::Found ChunkCache::find(const Strip& strip, const Region& region) {
+ChunkCache::Found ChunkCache::find(const Strip& strip, const PixelWindow& window) {
   std::size_t size = 0;
   for (std::size_t plane = 0; plane < strip.planes.size(); ++plane) size += strip.sample_bytes(plane);
-  size *= static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
+  size *= static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height());
   if (size == 0 || size > most_bytes_ / 4) return {};
   Hash hash;
-  each_row(strip, region, [&](std::span<const std::byte> row) {
+  each_row(strip, window, [&](std::span<const std::byte> row) {
     hash.add(row);
     return true;
   });
   const std::scoped_lock lock(mutex_);
   const auto [begin, end] = by_hash_.equal_range(hash.value());
   for (auto it = begin; it != end; ++it) {
-    if (!equals(**it->second, strip, region)) continue;
+    if (!equals(**it->second, strip, window)) continue;
     order_.splice(order_.begin(), order_, it->second);
     return {order_.front(), true};
   }
   auto chunk = std::make_shared<KnownChunk>();
   chunk->hash = hash.value();
-  chunk->region = region;
+  chunk->window = window;
   chunk->input.reserve(size);
-  each_row(strip, region, [&](std::span<const std::byte> row) {
+  each_row(strip, window, [&](std::span<const std::byte> row) {
     chunk->input.insert(chunk->input.end(), row.begin(), row.end());
     return true;
   });

@@ -20,7 +20,7 @@ namespace spectile::io {
 struct KnownChunk {
   std::vector<std::byte> input;
   std::uint64_t hash = 0;
-  Region region;
+  PixelWindow window;
   std::vector<std::byte> output;
   LineStats stats;
   double seconds = 0;  ///< that it took
@@ -35,10 +35,10 @@ class ChunkCache {
 
   struct Found {
     std::shared_ptr<KnownChunk> chunk;  ///< null for one that is too large to keep
-    bool known = false;                 ///< whether it was there before
+    bool known = false;                 ///< true if it was there before
   };
   /// The chunk made of the same bytes, or a new one. Calls come one at a time, in the order of the lines.
-  Found find(const Strip& strip, const Region& region);
+  Found find(const Strip& strip, const PixelWindow& window);
 
   /// Completes a chunk that was new. May run beside every other call.
   void complete(KnownChunk& chunk, std::span<const std::byte> output, const LineStats& stats, double seconds);

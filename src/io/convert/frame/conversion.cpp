@@ -11,10 +11,10 @@
 
 namespace spectile::io {
 
-Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats) {
+Result<void> MemoryJob::prepare(const ExrWriter& writer, std::size_t slots) {
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
-    SPECTILE_ASSIGN(auto row, FloatBuffer::create(floats));
+    SPECTILE_ASSIGN(auto row, FloatBuffer::create(row_floats_));
     std::fill_n(row.data(), row.size(), 0.0F);
     rows_.push_back(std::move(row));
   }
@@ -66,7 +66,7 @@ class Run {
         stop_at_(stop_at),
         cache_(kCacheBytes),
         counts_(options.skip && job.repeats()),
-        // What is written as it is costs little more than to look for it.
+        // A chunk that is not compressed costs little more than the search for it.
         caches_(counts_ && writer.compresses()) {}
 
   Result<LineStats> run(int threads) {
@@ -81,10 +81,10 @@ class Run {
  private:
   bool produce(Slot& slot) {
     if (failed_ || next_chunk_ >= writer_.chunks()) return false;
-    const Region region = writer_.region(next_chunk_);
-    if (!strip_ || !strip_->holds(region.y, region.height)) {
+    const PixelWindow window = writer_.window(next_chunk_);
+    if (!strip_ || !strip_->holds(window.y0, window.height())) {
       strip_.reset();
-      auto strip = next_strip(region.y);
+      auto strip = next_strip(window.y0);
       if (!strip) return fail(strip.error());
       strip_ = *std::move(strip);
     }
@@ -94,12 +94,12 @@ class Run {
     slot.known.reset();
     slot.reused = false;
     // Here, where chunks come in order, so that which are reused depends on no thread.
-    if (caches_) look_up(slot, region);
+    if (caches_) find_known(slot, window);
     return true;
   }
 
-  void look_up(Slot& slot, const Region& region) {
-    auto found = cache_.find(*slot.strip, region);
+  void find_known(Slot& slot, const PixelWindow& window) {
+    auto found = cache_.find(*slot.strip, window);
     slot.known = std::move(found.chunk);
     slot.reused = found.known;
   }
@@ -123,10 +123,10 @@ class Run {
     if (failed_ || slot.reused) return;
     const auto start = std::chrono::steady_clock::now();
     if (counts_) slot.stats.costs.chunks = 1;
-    const Region region = writer_.region(slot.chunk);
-    if (region.width < slot.strip->width) {
+    const PixelWindow window = writer_.window(slot.chunk);
+    if (window.width() < slot.strip->width) {
       // A tile is to its job an image of its own.
-      auto tile = cut_strip(*slot.strip, region.x, region.width, region.y, region.height);
+      auto tile = cut_strip(*slot.strip, window.x0, window.width(), window.y0, window.height());
       if (!tile) {
         fail(tile.error());
         return;
@@ -134,20 +134,20 @@ class Run {
       slot.strip = *std::move(tile);
     }
     if (stopped_) {
-      for (int i = 0; i < region.height; ++i) {
-        job_.line(index, *slot.strip, region.y + i, nullptr, slot.stats);
+      for (int i = 0; i < window.height(); ++i) {
+        job_.line(index, *slot.strip, window.y0 + i, nullptr, slot.stats);
       }
-      slot.stats = slot.stats.moved(region.x, 0);
+      slot.stats = slot.stats.moved(window.x0, 0);
       if (slot.known) slot.known->stats = slot.stats;
       return;
     }
-    const ExrWriter::Pack pack = [&](const Region& to, std::byte* packed) {
-      for (int i = 0; i < to.height; ++i, packed += writer_.line_bytes(to.width)) {
-        job_.line(index, *slot.strip, to.y + i, packed, slot.stats);
+    const ExrWriter::Pack pack = [&](const PixelWindow& to, std::byte* packed) {
+      for (int i = 0; i < to.height(); ++i, packed += writer_.line_bytes(to.width())) {
+        job_.line(index, *slot.strip, to.y0 + i, packed, slot.stats);
       }
     };
     if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
-    slot.stats = slot.stats.moved(region.x, 0);
+    slot.stats = slot.stats.moved(window.x0, 0);
     slot.encoded = true;
     if (slot.known && !failed_) {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -171,8 +171,8 @@ class Run {
       }
     }
     slot.known.reset();
-    const Region region = writer_.region(slot.chunk);
-    done_ += static_cast<std::uint64_t>(region.width) * static_cast<std::uint64_t>(region.height);
+    const PixelWindow window = writer_.window(slot.chunk);
+    done_ += static_cast<std::uint64_t>(window.width()) * static_cast<std::uint64_t>(window.height());
     Progress progress = writer_.progress();
     progress.pixels_done += done_;
     if (options_.progress && !options_.progress(progress)) {
@@ -183,8 +183,8 @@ class Run {
   /// Chunks are consumed in order, so the one that was made of the same input is there.
   void reuse(Slot& slot) {
     const KnownChunk& known = *slot.known;
-    const Region region = writer_.region(slot.chunk);
-    slot.stats = known.stats.moved(region.x - known.region.x, region.y - known.region.y);
+    const PixelWindow window = writer_.window(slot.chunk);
+    slot.stats = known.stats.moved(window.x0 - known.window.x0, window.y0 - known.window.y0);
     slot.stats.costs = {};
     slot.stats.costs.chunks = slot.stats.costs.chunks_reused = 1;
     slot.stats.costs.reused_seconds = known.seconds;

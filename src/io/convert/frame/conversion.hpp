@@ -25,13 +25,18 @@ class FilteredJob;
 class LineJob {
  public:
   virtual ~LineJob() = default;
+  /// Makes work spaces for so many slots, those of filter_rows() among them. The writer must outlive the job.
+  /// Errors: kOutOfMemory.
+  virtual Result<void> prepare(const ExrWriter& writer, std::size_t slots) = 0;
+  /// Lines worth reading at once, given those of the output's chunks.
+  virtual int strip_lines(int chunk_lines) const = 0;
   /// Reads lines into a strip; in order, one call at a time.
   virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
   /// Makes one line of a strip, which may be a tile and have less pixels a line than the image: with
   /// `packed`, the whole output line; without, only what `stats` needs. `slot` tells
   /// which of the job's work spaces to use; calls with different slots run side by side.
   virtual void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) = 0;
-  /// Whether lines whose samples in the strip are the same become the same: then chunks of such lines are
+  /// True if lines whose samples in the strip are the same become the same: then chunks of such lines are
   /// encoded once, as far as they are remembered.
   virtual bool repeats() const { return false; }
   /// Itself, where its output can have mip levels.
@@ -41,8 +46,10 @@ class LineJob {
 /// A job whose lines are in memory: nothing is read, and each slot has a row of floats to work in.
 class MemoryJob : public LineJob {
  public:
-  /// `floats`: of a slot's row, zeros at first. The writer must outlive the job. Errors: kOutOfMemory.
-  Result<void> prepare(const ExrWriter& writer, std::size_t slots, std::size_t floats);
+  /// `row_floats`: of a slot's row, zeros at first.
+  explicit MemoryJob(std::size_t row_floats) : row_floats_(row_floats) {}
+  Result<void> prepare(const ExrWriter& writer, std::size_t slots) override;
+  int strip_lines(int /*chunk_lines*/) const override { return writer_->height(); }
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override;
 
  protected:
@@ -50,6 +57,7 @@ class MemoryJob : public LineJob {
   float* row(std::size_t slot) noexcept { return rows_[slot].data(); }
 
  private:
+  std::size_t row_floats_;
   const ExrWriter* writer_ = nullptr;
   std::vector<FloatBuffer> rows_;
 };
@@ -58,8 +66,8 @@ class MemoryJob : public LineJob {
 std::size_t slot_count(const ImageSpec& spec, int width, int threads);
 
 /// Streams a job's lines through the encoders into the present level of the writer's file.
-/// `stop_at` says whether what was found so far forbids an output; then the rest is only counted, and the
-/// file must not be committed.
+/// `stop_at` is true if what was found so far forbids an output; then the rest is only counted, and the file
+/// must not be committed.
 /// Errors: from reading and writing, kCancelled.
 Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
                                  const ImageOptions& options,

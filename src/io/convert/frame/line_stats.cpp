@@ -37,7 +37,7 @@ void LineStats::add(const LineStats& later) {
   negative.add(later.negative);
   outside.add(later.outside);
   over_one += later.over_one;
-  limited += later.limited;
+  clamped += later.clamped;
   masked += later.masked;
   black += later.black;
   constant += later.constant;

@@ -7,7 +7,7 @@
 
 namespace spectile::io {
 
-/// What was computed, how long it took, and what was not computed.
+/// Pixels and chunks computed, reused and filled, and the time that they took.
 struct SkipCosts {
   std::uint64_t computed_pixels = 0;  // that went through a method's arithmetic
   double computing_seconds = 0;
@@ -35,13 +35,13 @@ struct PixelCount {
   PixelCount moved(const std::array<int, 2>& by) const { return {count, first_x + by[0], first_y + by[1]}; }
 };
 
-/// What a run of lines was found to hold.
+/// Counts of a run of lines.
 struct LineStats {
   PixelCount nonfinite;
   PixelCount negative;
   PixelCount outside;  // colours that the method cannot make
   std::uint64_t over_one = 0;
-  std::uint64_t limited = 0;
+  std::uint64_t clamped = 0;
   std::uint64_t masked = 0;
   std::uint64_t black = 0;     // masked ones too
   std::uint64_t constant = 0;  // in whole blocks of one colour, not black

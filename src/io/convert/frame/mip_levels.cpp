@@ -1,8 +1,6 @@
 // Mip levels: an output's smaller levels, filtered from what its job makes of the input, in bounded memory.
 #include "src/io/convert/frame/mip_levels.hpp"
 
-#include <half.h>
-
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "src/base/errors.hpp"
 #include "src/io/convert/frame/area_filter.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/reference/half.hpp"
 
 namespace spectile::io {
 namespace {
@@ -27,7 +26,14 @@ int fitting_lines(std::size_t line_bytes, int most) {
 template <class Sample>
 void store(const double* row, std::size_t n, std::byte* out) {
   auto* const samples = reinterpret_cast<Sample*>(out);
-  for (std::size_t x = 0; x < n; ++x) samples[x] = Sample(static_cast<float>(row[x]));
+  for (std::size_t x = 0; x < n; ++x) {
+    const auto sample = static_cast<float>(row[x]);
+    if constexpr (sizeof(Sample) == 2) {
+      samples[x] = reference::half_from_float(sample);
+    } else {
+      samples[x] = sample;
+    }
+  }
 }
 
 /// The levels as a job: its strips are averages.
@@ -48,12 +54,12 @@ class LevelMaker : public LineJob {
       passing_.push_back(plane);
       pixel_bytes_ += spec.sample_bytes();
     }
-    planes_.resize(planes_.size() + rows_, {"", Imf::FLOAT});
+    planes_.resize(planes_.size() + rows_, {"", SampleType::kFloat});
     pixel_bytes_ += rows_ * sizeof(float);
     stride_ = blocks_for(static_cast<std::size_t>(image_.width)) * kLanesPerBlock;
   }
 
-  Result<void> prepare() {
+  Result<void> prepare(const ExrWriter& /*writer*/, std::size_t /*slots*/) override {
     const std::size_t line = rows_ * stride_;
     // At least a line for each thread.
     batch_lines_ = std::max(fitting_lines(line * sizeof(float), 64), static_cast<int>(workers_));
@@ -62,7 +68,7 @@ class LevelMaker : public LineJob {
   }
 
   /// Lines of the present level's strips.
-  int strip_lines() const {
+  int strip_lines(int /*chunk_lines*/) const override {
     return fitting_lines(pixel_bytes_ * static_cast<std::size_t>(writer_.width()), 256);
   }
 
@@ -154,7 +160,8 @@ class LevelMaker : public LineJob {
       Strip& target = *targets_[level];
       const auto width = static_cast<std::size_t>(target.width);
       std::byte* const out = target.row(plane, line);
-      planes_[plane].type == Imf::HALF ? store<Imath::half>(row, width, out) : store<float>(row, width, out);
+      planes_[plane].type == SampleType::kHalf ? store<std::uint16_t>(row, width, out)
+                                               : store<float>(row, width, out);
     };
     if (plane >= passing_.size()) {
       filters_[plane].add(y, static_cast<const float*>(batch_row(i, plane - passing_.size())), emit);
@@ -162,16 +169,16 @@ class LevelMaker : public LineJob {
     }
     const std::byte* const row = source_->row(passing_[plane], y);
     switch (planes_[plane].type) {
-      case Imf::HALF:
-        return filters_[plane].add(y, reinterpret_cast<const Imath::half*>(row), emit);
-      case Imf::FLOAT:
+      case SampleType::kHalf:
+        return filters_[plane].add(y, reinterpret_cast<const std::uint16_t*>(row), emit);
+      case SampleType::kFloat:
         return filters_[plane].add(y, reinterpret_cast<const float*>(row), emit);
       default:
         return pick(plane, y, reinterpret_cast<const std::uint32_t*>(row));
     }
   }
 
-  /// Whole numbers, names of things most likely, have no averages.
+  /// Integers, names of things most likely, have no averages.
   void pick(std::size_t plane, int y, const std::uint32_t* row) {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const LevelSize size = tree_->levels()[i].size;
@@ -226,12 +233,12 @@ std::optional<std::array<int, 2>> tiles_of(const ImageOptions& options) {
 Result<void> write_levels(FilteredJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
                           const ImageOptions& options) {
   LevelMaker maker(job, writer, slots, strip_lines, options);
-  SPECTILE_TRY(maker.prepare());
+  SPECTILE_TRY(maker.prepare(writer, slots));
   for (int level = 1; level < writer.levels(); ++level) {
     writer.begin_level(level);
     SPECTILE_TRY(maker.begin());
-    const auto run = run_conversion(maker, writer, slots, maker.strip_lines(), options,
-                                    [](const LineStats&) { return false; });
+    const auto run = run_conversion(maker, writer, slots, maker.strip_lines(writer.lines_per_chunk()),
+                                    options, [](const LineStats&) { return false; });
     if (!run) return run.error();
   }
   return {};

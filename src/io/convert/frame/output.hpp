@@ -1,40 +1,66 @@
-// What every image job does at its edges: checks of its paths, and the report.
+// The frame that every image job runs in: checks of its paths, the output's header, the conversion, the
+// report.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <spectile/image/image.hpp>
 #include <string>
 
+#include "src/base/errors.hpp"
+#include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/conversion.hpp"
 #include "src/io/exr/exr_input.hpp"
 #include "src/io/exr/exr_writer.hpp"
 
 namespace spectile::io {
 
-/// Errors: kBadArgument when both paths are one file.
-Result<void> check_distinct(const std::string& input, const std::string& output);
+/// Kernels and threads of a conversion.
+struct JobSetup {
+  const kernels::KernelTable& kernels;
+  int threads;
+};
 
-/// The error that what a conversion found makes of it, where it forbids an output; else nothing.
+/// Errors: kBadArgument where an input is the output; those of active_isa().
+Result<JobSetup> set_up_job(std::span<const std::string> inputs, const std::string& output,
+                            const ImageOptions& options);
+
+/// The header of an image that is made of another: tiles and mip levels as the options say, and
+/// the settings after the other texts.
+ImageSpec conversion_spec(const PartHeader& source, std::vector<ChannelSpec> channels, TextAttributes texts,
+                          const ImageOptions& options, const std::string& settings);
+
+/// The error that the pixels found make of a conversion, where they forbid an output; else nothing.
 using Refusal = std::function<std::optional<Error>(const LineStats&)>;
 
 /// That of conversions of spectra: at numbers that are not finite, where the options say stop. `offset`: of
-/// what is converted within the input's data window.
+/// the converted pixels within the input's data window.
 Refusal at_nonfinite(const std::string& input, const ImageOptions& options, std::array<int, 2> offset);
 
-/// Runs a conversion, writes its mip levels where the file has some, and reports its size, counts and bytes,
-/// counts being those of the image itself; `found`, where asked for, gets all counts.
-/// Errors: those of run_conversion(), and the refusal.
-Result<ImageReport> convert(LineJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
-                            const ImageOptions& options, const Refusal& refusal, LineStats* found = nullptr);
+/// An image job in its frame.
+struct ImageJob {
+  LineJob& job;
+  const std::string& output;
+  ImageSpec spec;  // its compression is that of the options
+  const ImageOptions& options;
+  Refusal refusal;     // none where nothing forbids an output
+  ImageReport report;  // what is known beforehand: bands, quantity, colour space, notes
+};
+
+/// Creates the output, runs the conversion, writes mip levels where the file has some, completes the file,
+/// and adds its size, counts and bytes to the report, counts being those of the image itself. Errors:
+/// kBadArgument for samples that are written as integers; those of ExrWriter and run_conversion(); the
+/// refusal.
+Result<ImageReport> run_image_job(ImageJob image);
 
 /// Runs `action`; whatever a library throws inside becomes an error that names `path`, for the library's
 /// boundary.
 template <class T>
 Result<T> contained(const std::string& path, const std::function<Result<T>()>& action) {
   Result<T> result = Error{};
-  if (auto run = guarded(path, [&] { result = action(); }); !run) return run.error();
+  SPECTILE_TRY(guarded(path, [&] { result = action(); }));
   return result;
 }
 

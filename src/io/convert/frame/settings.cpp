@@ -1,14 +1,11 @@
 // Settings as one line of text, and whether an image that holds one needs to be made anew.
-#include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfTileDescription.h>
-#include <fmt/ranges.h>
 #include <sys/stat.h>
 
 #include <spectile/image/settings.hpp>
 #include <spectile/spectra/band_weights.hpp>
 
 #include "src/base/digest.hpp"
-#include "src/base/errors.hpp"
+#include "src/base/enum_names.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/exr/attributes.hpp"
@@ -35,14 +32,14 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-std::string text_of(const MeasuredSpectrum& spectrum) {
+std::string to_text(const MeasuredSpectrum& spectrum) {
   Digest digest;
   for (const double nm : spectrum.wavelengths_nm()) digest.add(nm);
   for (const double value : spectrum.values()) digest.add(value);
   return fmt::format("{}#{}", spectrum.values().size(), digest.text());
 }
 
-std::string text_of(const Bands& bands) {
+std::string to_text(const Bands& bands) {
   Digest digest;
   for (const Band& band : bands.list()) digest.add(band.lower_nm).add(band.centre_nm).add(band.upper_nm);
   if (const BandWeights* const own = bands.weights()) {
@@ -58,7 +55,7 @@ std::string text_of(const Bands& bands) {
                      bands[bands.count() - 1].upper_nm, digest.text());
 }
 
-std::string text_of(const RgbSpace& space) {
+std::string to_text(const RgbSpace& space) {
   const Chromaticities& c = space.chromaticities;
   Digest digest;
   for (const auto& point : {c.red, c.green, c.blue, c.white}) {
@@ -67,59 +64,22 @@ std::string text_of(const RgbSpace& space) {
   return fmt::format("{}#{}{}", quoted(space.name), digest.text(), space.relative_to_d65 ? " under D65" : "");
 }
 
-const char* text_of(Observer observer) {
-  return observer == Observer::kCie1964 ? "1964" : "1931";
+/// The first and the last pixel, both included.
+std::string to_text(const PixelWindow& w) {
+  return fmt::format("{},{},{},{}", w.x0, w.y0, std::int64_t{w.x1} - 1, std::int64_t{w.y1} - 1);
 }
 
-const char* text_of(ColorTarget target) {
-  switch (target) {
-    case ColorTarget::kXyz:
-      return "xyz";
-    case ColorTarget::kLuminance:
-      return "luminance";
-    case ColorTarget::kSrgb:
-      break;
-  }
-  return "srgb";
-}
-
-const char* text_of(Adaptation adaptation) {
-  switch (adaptation) {
-    case Adaptation::kBradford:
-      return "bradford";
-    case Adaptation::kCat16:
-      return "cat16";
-    case Adaptation::kNone:
-      break;
-  }
-  return "none";
-}
-
-const char* text_of(NegativeInput negative) {
-  switch (negative) {
-    case NegativeInput::kClip:
-      return "clip";
-    case NegativeInput::kKeep:
-      return "keep";
-    case NegativeInput::kError:
-      return "stop";
-    case NegativeInput::kGamut:
-      break;
-  }
-  return "gamut";
-}
-
-const char* text_of(GamutPolicy policy) {
-  switch (policy) {
-    case GamutPolicy::kKeep:
-      return "keep";
-    case GamutPolicy::kError:
-      return "stop";
-    case GamutPolicy::kClip:
-      break;
-  }
-  return "clip";
-}
+constexpr EnumName<Observer> kObservers[] = {{Observer::kCie1931, "1931"}, {Observer::kCie1964, "1964"}};
+constexpr EnumName<ColorTarget> kTargets[] = {
+    {ColorTarget::kSrgb, "srgb"}, {ColorTarget::kXyz, "xyz"}, {ColorTarget::kLuminance, "luminance"}};
+constexpr EnumName<Adaptation> kAdaptations[] = {
+    {Adaptation::kNone, "none"}, {Adaptation::kBradford, "bradford"}, {Adaptation::kCat16, "cat16"}};
+constexpr EnumName<NegativeInput> kNegatives[] = {{NegativeInput::kGamut, "gamut"},
+                                                  {NegativeInput::kClip, "clip"},
+                                                  {NegativeInput::kKeep, "keep"},
+                                                  {NegativeInput::kError, "stop"}};
+constexpr EnumName<GamutPolicy> kGamutPolicies[] = {
+    {GamutPolicy::kClip, "clip"}, {GamutPolicy::kKeep, "keep"}, {GamutPolicy::kError, "stop"}};
 
 /// "; name=value" after what is there.
 class Line {
@@ -136,10 +96,10 @@ class Line {
     // lanes, skipping and progress change no bit.
     const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, progress] =
         options;
-    add("pixel", pixel == PixelType::kFloat ? "float" : "half");
+    add("pixel", to_string(pixel));
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
-    add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
+    add("region", region ? to_text(*region) : "all");
     // As they are written: mip levels alone imply tiles.
     const auto written = io::tiles_of(options);
     add("tile",
@@ -151,12 +111,13 @@ class Line {
     add(static_cast<const ImageOptions&>(options));
     add("method", to_string(options.method));
     add("quantity", to_string(options.quantity));
-    add("bands", text_of(options.bands));
-    add("white", options.light ? quoted(options.light->name) + text_of(options.light->spectrum) : "D65");
-    add("white-observer", text_of(options.observer));
-    add("input-space", options.input_space ? text_of(*options.input_space) : "of the file");
-    add("negative", text_of(options.negative));
-    add("out-of-gamut", options.out_of_gamut ? text_of(*options.out_of_gamut) : "by negative");
+    add("bands", to_text(options.bands));
+    add("white", options.light ? quoted(options.light->name) + to_text(options.light->spectrum) : "D65");
+    add("white-observer", enum_name(kObservers, options.observer));
+    add("input-space", options.input_space ? to_text(*options.input_space) : "of the file");
+    add("negative", enum_name(kNegatives, options.negative));
+    add("out-of-gamut",
+        options.out_of_gamut ? enum_name(kGamutPolicies, *options.out_of_gamut) : "by negative");
     add("layer", quoted(options.layer));
     return *this;
   }
@@ -167,32 +128,9 @@ class Line {
   std::string text_;
 };
 
-/// Reads what comes last in a file, which a file that was cut short has not: the last line, or the last tile
-/// of the smallest level.
-Result<void> read_last(io::ExrInput& input) {
-  for (int part = 0; part < input.parts(); ++part) {
-    if (input.deep(part)) continue;
-    const Imf::Header& header = input.header(part);
-    if (header.hasTileDescription() && header.tileDescription().mode != Imf::ONE_LEVEL) {
-      SPECTILE_TRY(input.read_smallest(part));
-      continue;
-    }
-    // A channel that there is not; the chunk is read all the same.
-    const Imath::Box2i window = input.header(part).dataWindow();
-    std::vector<float> line(static_cast<std::size_t>(io::width_of(input.header(part))));
-    Imf::FrameBuffer target;
-    target.insert("spectile.none", Imf::Slice::Make(Imf::FLOAT, line.data(), {window.min.x, window.max.y},
-                                                    window.max.x - window.min.x + 1, 1));
-    SPECTILE_TRY(input.read(part, target, window.max.y, window.max.y));
-  }
-  return {};
-}
-
 std::string settings_in(const io::ExrInput& input) {
   for (int part = 0; part < input.parts(); ++part) {
-    const auto* const found =
-        input.header(part).findTypedAttribute<Imf::StringAttribute>(io::kSettingsAttribute);
-    if (found != nullptr) return found->value();
+    if (auto found = input.header(part).text(io::kSettingsAttribute)) return *std::move(found);
   }
   return {};
 }
@@ -215,28 +153,28 @@ std::string settings_text(const UpsampleImageOptions& options) {
 std::string settings_text(const RelightImageOptions& options) {
   Line line("relight");
   line.add(options);
-  line.add("under", quoted(options.under.name) + text_of(options.under.spectrum));
-  line.add("to", text_of(options.target));
-  line.add("observer", text_of(options.seen_by));
-  line.add("adapt", text_of(options.adaptation));
-  line.add("way", options.way == Way::kSpectra ? "spectra" : "direct");
+  line.add("under", quoted(options.under.name) + to_text(options.under.spectrum));
+  line.add("to", enum_name(kTargets, options.target));
+  line.add("observer", enum_name(kObservers, options.seen_by));
+  line.add("adapt", enum_name(kAdaptations, options.adaptation));
+  line.add("way", options.mode == RelightMode::kSpectra ? "spectra" : "direct");
   return std::move(line).text();
 }
 
 std::string settings_text(const ProjectImageOptions& options) {
   Line line("project");
   line.add(options);
-  line.add("to", text_of(options.target));
-  line.add("observer", text_of(options.observer));
-  line.add("illuminant", options.light ? text_of(*options.light) : "D65");
+  line.add("to", enum_name(kTargets, options.target));
+  line.add("observer", enum_name(kObservers, options.observer));
+  line.add("illuminant", options.light ? to_text(*options.light) : "D65");
   line.add("quantity", options.quantity ? to_string(*options.quantity) : "of the file");
-  line.add("adapt", text_of(options.adaptation));
+  line.add("adapt", enum_name(kAdaptations, options.adaptation));
   return std::move(line).text();
 }
 
 std::string settings_text(const ExpandImageOptions& options) {
   Line line("expand");
-  line.add(options).add("bands", options.bands ? text_of(*options.bands) : "of the file");
+  line.add(options).add("bands", options.bands ? to_text(*options.bands) : "of the file");
   return std::move(line).text();
 }
 
@@ -247,18 +185,20 @@ Result<std::string> settings_of(const std::string& path) {
   });
 }
 
-bool up_to_date(const std::string& output, std::span<const std::string> made_from,
+bool up_to_date(const std::string& output, std::span<const std::string> dependencies,
                 std::string_view settings) {
   struct stat made {};
   if (::stat(output.c_str(), &made) != 0 || !S_ISREG(made.st_mode)) return false;
-  for (const std::string& file : made_from) {
+  for (const std::string& file : dependencies) {
     struct stat source {};
     if (::stat(file.c_str(), &source) != 0 || !is_before(source.st_mtim, made.st_mtim)) return false;
   }
   const auto same = io::contained<bool>(output, [&]() -> Result<bool> {
     SPECTILE_ASSIGN(const auto input, io::ExrInput::open(output, 1));
     if (settings.empty() || settings_in(*input) != settings) return false;
-    SPECTILE_TRY(read_last(*input));
+    for (int part = 0; part < input->parts(); ++part) {
+      if (!input->header(part).deep()) SPECTILE_TRY(input->read_last(part));
+    }
     return true;
   });
   return same && *same;

@@ -8,28 +8,30 @@
 
 namespace spectile::io {
 
-ColorJob::ColorJob(const std::vector<PlaneSpec>& planes, std::size_t first_passing, ColorTarget target,
+ColorJob::ColorJob(ImageSource& source, std::size_t first_passing, ColorTarget target,
                    const ImageOptions& options, const kernels::KernelTable& kernels)
-    : planes_(planes), options_(options), kernels_(kernels) {
-  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+    : source_(source), options_(options), kernels_(kernels) {
+  const SampleType type = options.pixel;
   for (const char* const name : color_channels(target)) channels_.push_back({name, type});
   colors_ = channels_.size();
+  const std::vector<PlaneSpec>& planes = source.planes();
   for (std::size_t i = first_passing; i < planes.size(); ++i) {
     const bool taken = std::any_of(channels_.begin(), channels_.end(),
                                    [&](const auto& c) { return c.name == planes[i].name; });
     if (taken) continue;
-    channels_.push_back({planes[i].name, passing_type(planes[i])});
+    channels_.push_back({planes[i].name, planes[i].type});
     passing_.push_back(i);
   }
 }
 
-Result<void> ColorJob::prepare_colors(const ExrWriter& writer, int width, std::size_t slots) {
+Result<void> ColorJob::prepare(const ExrWriter& writer, std::size_t slots) {
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
     Work work;
-    SPECTILE_ASSIGN(auto color, ColorLine::create(width));
+    SPECTILE_ASSIGN(auto color, ColorLine::create(source_.width()));
     work.color = std::move(color);
     SPECTILE_ASSIGN(work.halves, FloatBuffer::create(work.color.padded / 2));
+    SPECTILE_ASSIGN(work.spectra, FloatBuffer::create(spectra_floats()));
     works_.push_back(std::move(work));
   }
   return {};
@@ -41,13 +43,13 @@ void ColorJob::line(std::size_t slot, const Strip& strip, int line, std::byte* p
   work.color.set_width(width);
   make_colors(slot, strip, line, work.color, stats, packed == nullptr);
   if (packed == nullptr) return;
-  stats.limited += pack_colors(work, width, packed);
+  stats.clamped += pack_colors(work, width, packed);
   for (std::size_t i = 0; i < passing_.size(); ++i) pass(strip, passing_[i], line, colors_ + i, packed);
 }
 
 std::vector<std::pair<std::size_t, PlaneSpec>> ColorJob::passing() const {
   std::vector<std::pair<std::size_t, PlaneSpec>> out;
-  for (const std::size_t plane : passing_) out.emplace_back(plane, planes_[plane]);
+  for (const std::size_t plane : passing_) out.emplace_back(plane, source_.planes()[plane]);
   return out;
 }
 
@@ -68,15 +70,15 @@ void ColorJob::level_line(std::size_t slot, const Strip& strip, int line, std::b
   for (std::size_t i = 0; i < passing_.size(); ++i) pass(strip, i, line, colors_ + i, packed);
 }
 
-/// Packs the slot's rows, and returns how many pixels were limited to what a half holds.
+/// Packs the slot's rows, and returns how many pixels were clamped to what a half holds.
 std::uint64_t ColorJob::pack_colors(Work& work, std::size_t width, std::byte* packed) const {
-  const bool half = options_.pixel == PixelType::kHalf;
-  const std::uint64_t limited = half ? limit_to_half(kernels_, work.color, colors_, width) : 0;
+  const bool half = options_.pixel == SampleType::kHalf;
+  const std::uint64_t clamped = half ? clamp_to_half(kernels_, work.color, colors_, width) : 0;
   for (std::size_t k = 0; k < colors_; ++k) {
     store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
               packed + writer_->channel_offset(k, width));
   }
-  return limited;
+  return clamped;
 }
 
 void ColorJob::pass(const Strip& strip, std::size_t plane, int line, std::size_t channel,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/io/convert/frame/mip_levels.hpp"
+#include "src/io/convert/sources/image_source.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
 
 namespace spectile::io {
@@ -16,12 +17,17 @@ class ColorJob : public FilteredJob {
  public:
   /// Of the source's planes, those from `first_passing` on pass through, but for names that the colour has.
   /// All references must outlive it.
-  ColorJob(const std::vector<PlaneSpec>& planes, std::size_t first_passing, ColorTarget target,
-           const ImageOptions& options, const kernels::KernelTable& kernels);
+  ColorJob(ImageSource& source, std::size_t first_passing, ColorTarget target, const ImageOptions& options,
+           const kernels::KernelTable& kernels);
 
   /// Output channels: the colour, then those that pass through.
   const std::vector<ChannelSpec>& channels() const noexcept { return channels_; }
 
+  Result<void> prepare(const ExrWriter& writer, std::size_t slots) final;
+  int strip_lines(int chunk_lines) const final { return source_.strip_lines(chunk_lines); }
+  Result<std::shared_ptr<Strip>> read(int first_line, int lines) final {
+    return source_.read(first_line, lines);
+  }
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) final;
   std::vector<std::pair<std::size_t, PlaneSpec>> passing() const final;
   std::size_t filtered_rows() const final { return colors_; }
@@ -29,8 +35,9 @@ class ColorJob : public FilteredJob {
   void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) final;
 
  protected:
-  /// Work space of the slots, for lines of `width` pixels. Errors: kOutOfMemory.
-  Result<void> prepare_colors(const ExrWriter& writer, int width, std::size_t slots);
+  /// Floats of work space for spectra that each slot needs.
+  virtual std::size_t spectra_floats() const = 0;
+  float* spectra(std::size_t slot) noexcept { return works_[slot].spectra.data(); }
 
   /// Makes the colours of a line in the first rows of `color`, whose width is set. With `checks_only`, what
   /// `stats` needs is enough.
@@ -43,11 +50,12 @@ class ColorJob : public FilteredJob {
   struct Work {
     ColorLine color;
     FloatBuffer halves;
+    FloatBuffer spectra;
   };
   std::uint64_t pack_colors(Work& work, std::size_t width, std::byte* packed) const;
   void pass(const Strip& strip, std::size_t plane, int line, std::size_t channel, std::byte* packed) const;
 
-  const std::vector<PlaneSpec>& planes_;
+  ImageSource& source_;
   const ImageOptions& options_;
   const kernels::KernelTable& kernels_;
   const ExrWriter* writer_ = nullptr;

@@ -5,7 +5,6 @@
 #include <spectile/image/settings.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/conversion.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
@@ -14,8 +13,6 @@
 #include "src/io/convert/stages/band_channels.hpp"
 #include "src/io/convert/stages/band_filter.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
-#include "src/io/exr/attributes.hpp"
-#include "src/lanes/tiles.hpp"
 
 namespace spectile {
 namespace {
@@ -46,24 +43,24 @@ class ExpandJob : public io::FilteredJob {
   std::vector<io::ChannelSpec> channels(const Bands& bands) const {
     std::vector<io::ChannelSpec> out;
     for (std::size_t i = source_.coefficients(); i < source_.planes().size(); ++i) {
-      out.push_back({source_.planes()[i].name, io::passing_type(source_.planes()[i])});
+      out.push_back({source_.planes()[i].name, source_.planes()[i].type});
     }
     io::add_band_channels(out, bands, source_.upsampler().quantity(), options_.pixel);
     return out;
   }
 
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
-      auto bands = packer_.work();
-      auto coefficients = FloatBuffer::create(4 * padded_);
-      if (!bands) return bands.error();
-      if (!coefficients) return coefficients.error();
+      SPECTILE_ASSIGN(auto coefficients, FloatBuffer::create(4 * padded_));
+      SPECTILE_ASSIGN(auto bands, packer_.work());
       SPECTILE_ASSIGN(auto filtered, filter_.work(source_.width()));
-      works_.push_back({*std::move(coefficients), *std::move(bands), std::move(filtered)});
+      works_.push_back({std::move(coefficients), std::move(bands), std::move(filtered)});
     }
     return {};
   }
+
+  int strip_lines(int chunk_lines) const override { return source_.strip_lines(chunk_lines); }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
     return source_.read(first_line, lines);
@@ -75,8 +72,8 @@ class ExpandJob : public io::FilteredJob {
     const io::LineCoefficients of = load(work, strip, line, stats);
     if (packed == nullptr) return;
     pass_through(strip, line, source_.coefficients(), packed);
-    stats.limited += packer_.line(work.bands, of, width, *writer_, passing_count(), packed);
-    if (options_.mipmap) filter_.look(of, width);
+    stats.clamped += packer_.line(work.bands, of, width, *writer_, passing_count(), packed);
+    if (options_.mipmap) filter_.scan(of, width);
   }
 
   std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
@@ -114,7 +111,7 @@ class ExpandJob : public io::FilteredJob {
       std::memcpy(rows[k], strip.row(k, line), width * sizeof(float));
       std::fill(rows[k] + width, rows[k] + blocks_for(width) * kLanesPerBlock, 0.0F);
     }
-    settle(rows, width, line, stats);
+    sanitize(rows, width, line, stats);
     return {{rows[0], rows[1], rows[2]}, rows[3]};
   }
 
@@ -127,7 +124,7 @@ class ExpandJob : public io::FilteredJob {
   }
 
   /// Counts pixels whose coefficients are not finite, or whose samples could overflow, and makes them black.
-  void settle(float* const rows[4], std::size_t width, int line, LineStats& stats) const {
+  void sanitize(float* const rows[4], std::size_t width, int line, LineStats& stats) const {
     const std::size_t count = source_.coefficients();
     bool all_good = true;
     for (std::size_t k = 0; k < count; ++k) {
@@ -164,44 +161,30 @@ void note_continued(const Upsampler& upsampler, const Bands& bands, std::vector<
 
 Result<ImageReport> expand_file(const std::string& input, const std::string& output,
                                 const ExpandImageOptions& options) {
-  SPECTILE_TRY(io::check_distinct(input, output));
-  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  const int threads = tiles::thread_count(options.threads);
-  SPECTILE_ASSIGN(auto file, io::ExrInput::open(input, threads));
+  SPECTILE_ASSIGN(const auto setup, io::set_up_job(std::array{input}, output, options));
+  SPECTILE_ASSIGN(auto file, io::ExrInput::open(input, setup.threads));
   SPECTILE_ASSIGN(auto source, io::CoefficientSource::open(std::move(file), options.region));
   const Upsampler& upsampler = source->upsampler();
   const Bands bands = options.bands.value_or(upsampler.bands());
   SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, bands));
 
-  ExpandJob job(*source, rows, options, *kernels);
-  io::ImageSpec spec;
-  spec.source = &source->header();
-  spec.channels = job.channels(bands);
-  spec.compression = options.compression;
-  spec.tile = io::tiles_of(options);
-  spec.mipmap = options.mipmap;
-  spec.replaced = io::method_attribute_names();
-  for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
+  ExpandJob job(*source, rows, options, setup.kernels);
   MethodOptions made;
   if (upsampler.options().light) {
     made.light = NamedLight{io::light_name_of(source->header()), *upsampler.options().light};
   }
-  spec.text_attributes = io::method_attributes(upsampler, made, false);
-  io::add_layout_attributes(spec.text_attributes, upsampler.quantity(), bands);
-  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, source->width(), threads);
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
-  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
-
-  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
-  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options,
-                                              io::at_nonfinite(input, options, source->offset())));
-  ImageReport report = std::move(converted);
-  report.bands = bands.count();
-  report.quantity = upsampler.quantity();
-  report.notes = source->notes();
-  note_continued(upsampler, bands, report.notes);
-  return report;
+  auto texts = io::method_attributes(upsampler, made, false);
+  io::add_layout_attributes(texts, upsampler.quantity(), bands);
+  io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(bands), std::move(texts), options,
+                                           settings_text(options));
+  spec.replaced = io::spectral_attribute_names();
+  ImageReport known;
+  known.bands = bands.count();
+  known.quantity = upsampler.quantity();
+  known.notes = source->notes();
+  note_continued(upsampler, bands, known.notes);
+  return io::run_image_job({job, output, std::move(spec), options,
+                            io::at_nonfinite(input, options, source->offset()), std::move(known)});
 }
 
 }  // namespace

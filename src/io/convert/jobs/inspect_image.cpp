@@ -1,6 +1,4 @@
 // inspect_image: what a file holds.
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,45 +16,34 @@
 namespace spectile {
 namespace {
 
-float sample_of(const io::Strip& strip, std::size_t plane, Imf::PixelType type, int line, std::size_t x) {
+float sample_of(const io::Strip& strip, std::size_t plane, SampleType type, int line, std::size_t x) {
   const std::byte* row = strip.row(plane, line);
-  if (type == Imf::HALF) return reference::float_from_half(reinterpret_cast<const std::uint16_t*>(row)[x]);
-  if (type == Imf::UINT) return static_cast<float>(reinterpret_cast<const std::uint32_t*>(row)[x]);
+  if (type == SampleType::kHalf)
+    return reference::float_from_half(reinterpret_cast<const std::uint16_t*>(row)[x]);
+  if (type == SampleType::kUint32) return static_cast<float>(reinterpret_cast<const std::uint32_t*>(row)[x]);
   return reinterpret_cast<const float*>(row)[x];
 }
 
-const char* type_name(Imf::PixelType type) {
-  return type == Imf::HALF ? "half" : type == Imf::UINT ? "uint" : "float";
-}
-
-std::string compression_name(Imf::Compression compression) {
-  constexpr const char* kNames[] = {"none",  "rle", "zips", "zip",  "piz",
-                                    "pxr24", "b44", "b44a", "dwaa", "dwab"};
-  const auto i = static_cast<std::size_t>(compression);
-  return i < std::size(kNames) ? kNames[i] : "unknown";
-}
-
 /// Channels to look at: ordinary ones by name, then spectral ones by wavelength. Subsampled ones are not.
-std::vector<io::PlaneSpec> planes_of(const Imf::Header& header,
+std::vector<io::PlaneSpec> planes_of(const io::PartHeader& header,
                                      const std::optional<io::SpectralChannels>& spectral) {
   std::vector<io::PlaneSpec> planes;
   const auto is_spectral = [&](const std::string& name) {
     return spectral &&
            std::find(spectral->names.begin(), spectral->names.end(), name) != spectral->names.end();
   };
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-    if (it.channel().xSampling != 1 || it.channel().ySampling != 1 || is_spectral(it.name())) continue;
-    planes.push_back({it.name(), it.channel().type});
+  for (const io::StoredChannel& channel : header.channels()) {
+    if (!channel.subsampled() && !is_spectral(channel.name)) planes.push_back({channel.name, channel.type});
   }
   if (spectral) {
     for (const std::string& name : spectral->names) {
-      planes.push_back({name, header.channels()[name.c_str()].type});
+      planes.push_back({name, header.find(name)->type});
     }
   }
   return planes;
 }
 
-void count_line(const io::Strip& strip, std::size_t plane, Imf::PixelType type, int line, std::size_t width,
+void count_line(const io::Strip& strip, std::size_t plane, SampleType type, int line, std::size_t width,
                 ChannelInfo& info) {
   for (std::size_t x = 0; x < width; ++x) {
     const float v = sample_of(strip, plane, type, line, x);
@@ -70,29 +57,21 @@ void count_line(const io::Strip& strip, std::size_t plane, Imf::PixelType type, 
   }
 }
 
-std::array<int, 4> corners(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, box.max.x, box.max.y};
-}
-
-void describe_header(const Imf::Header& header, ImageInfo& info) {
-  info.width = io::width_of(header);
-  info.height = io::height_of(header);
-  info.data_window = corners(header.dataWindow());
-  info.display_window = corners(header.displayWindow());
-  info.tiled = header.hasTileDescription();
-  info.compression = compression_name(header.compression());
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
-    if (std::string(it.name()) == "type") continue;
-    if (text != nullptr) info.attributes.emplace_back(it.name(), text->value());
-  }
+void describe_header(const io::PartHeader& header, ImageInfo& info) {
+  info.width = header.width();
+  info.height = header.height();
+  info.data_window = header.data_window();
+  info.display_window = header.display_window();
+  info.tiled = header.tiles().has_value();
+  info.compression = header.compression() ? Compression{*header.compression(), -1}.description() : "unknown";
+  info.attributes = header.texts();
 }
 
 Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads) {
   SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
   int part = 0;
-  while (input->deep(part)) ++part;
-  const Imf::Header& header = input->header(part);
+  while (input->header(part).deep()) ++part;
+  const io::PartHeader& header = input->header(part);
   ImageInfo info;
   describe_header(header, info);
   info.parts = input->parts();
@@ -112,7 +91,7 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
   for (const io::PlaneSpec& plane : planes) {
     ChannelInfo channel;
     channel.name = plane.name;
-    channel.type = type_name(plane.type);
+    channel.type = std::string(to_string(plane.type));
     channel.minimum = std::numeric_limits<float>::infinity();
     channel.maximum = -std::numeric_limits<float>::infinity();
     info.channels.push_back(channel);

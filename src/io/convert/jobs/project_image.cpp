@@ -8,15 +8,12 @@
 #include "src/base/errors.hpp"
 #include "src/color/color_matrix.hpp"
 #include "src/color/kernel_tables.hpp"
-#include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/jobs/color_job.hpp"
 #include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
 #include "src/io/convert/stages/lines.hpp"
-#include "src/io/exr/attributes.hpp"
-#include "src/lanes/tiles.hpp"
 
 namespace spectile {
 namespace {
@@ -28,7 +25,7 @@ class ProjectJob : public io::ColorJob {
  public:
   ProjectJob(io::SpectralSource& source, const Projector& projector, const ProjectImageOptions& options,
              const kernels::KernelTable& kernels)
-      : ColorJob(source.planes(), source.bands().count(), options.target, options, kernels),
+      : ColorJob(source, source.bands().count(), options.target, options, kernels),
         source_(source),
         projector_(projector),
         options_(options) {
@@ -38,31 +35,22 @@ class ProjectJob : public io::ColorJob {
                (options.target == ColorTarget::kXyz && options.adaptation != Adaptation::kNone);
   }
 
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    for (std::size_t i = 0; i < slots; ++i) {
-      SPECTILE_ASSIGN(auto spectra,
-                      FloatBuffer::create(source_.bands().count() * kLanesPerBlock * tile_blocks()));
-      spectra_.push_back(std::move(spectra));
-    }
-    return prepare_colors(writer, source_.width(), slots);
-  }
-
-  Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
-    return source_.read(first_line, lines);
-  }
-
  private:
+  std::size_t spectra_floats() const override {
+    return source_.bands().count() * kLanesPerBlock * tile_blocks();
+  }
+
   void make_colors(std::size_t slot, const Strip& strip, int line, io::ColorLine& color, LineStats& stats,
                    bool /*checks_only*/) override {
     const auto width = static_cast<std::size_t>(strip.width);
     float* const* rows = color.rows;
-    project_line(spectra_[slot].data(), strip, line, color);
-    io::settle_nonfinite(kernels(), rows, width, line, options_.nonfinite, stats);
+    project_line(spectra(slot), strip, line, color);
+    io::sanitize_nonfinite(kernels(), rows, width, line, options_.nonfinite, stats);
     if (convert_) {
       const float* const xyz[3] = {rows[0], rows[1], rows[2]};
       kernels().transform3(rows, xyz, matrix_.data(), color.padded);
     }
-    io::settle_range(kernels(), rows, width, line, NegativeInput::kKeep, stats);
+    io::sanitize_range(kernels(), rows, width, line, NegativeInput::kKeep, stats);
   }
 
   /// Blocks that are gathered and then projected together; they stay in the caches.
@@ -98,7 +86,6 @@ class ProjectJob : public io::ColorJob {
   io::SpectralSource& source_;
   const Projector& projector_;
   const ProjectImageOptions& options_;
-  std::vector<FloatBuffer> spectra_;  // of each slot
   std::array<float, 9> matrix_{};
   bool convert_ = false;
 };
@@ -119,10 +106,9 @@ Result<Projector> projector_for(const io::SpectralSource& source, const std::str
 
 Result<ImageReport> project_file(const std::string& input, const std::string& output,
                                  const ProjectImageOptions& options) {
-  SPECTILE_TRY(io::check_distinct(input, output));
-  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  const int threads = tiles::thread_count(options.threads);
-  SPECTILE_ASSIGN(auto source, io::SpectralSource::open(input, options.quantity, threads, options.region));
+  SPECTILE_ASSIGN(const auto setup, io::set_up_job(std::array{input}, output, options));
+  SPECTILE_ASSIGN(auto source,
+                  io::SpectralSource::open(input, options.quantity, setup.threads, options.region));
   if (options.adaptation != Adaptation::kNone && source->quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
   }
@@ -131,31 +117,21 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   }
   SPECTILE_ASSIGN(const auto projector, projector_for(*source, input, options));
 
-  ProjectJob job(*source, projector, options, *kernels);
-  io::ImageSpec spec;
-  spec.source = &source->header();
-  spec.channels = job.channels();
-  spec.compression = options.compression;
-  spec.tile = io::tiles_of(options);
-  spec.mipmap = options.mipmap;
+  ProjectJob job(*source, projector, options, setup.kernels);
+  io::TextAttributes texts;
+  if (options.target == ColorTarget::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
+  io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
+                                           settings_text(options));
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
   spec.replaced.insert(spec.replaced.end(),
                        {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
-  if (options.target == ColorTarget::kSrgb) spec.text_attributes = {{"colorInteropID", "lin_rec709_scene"}};
-  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, source->width(), threads);
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
-  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
-
-  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
-  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options,
-                                              io::at_nonfinite(input, options, source->offset())));
-  ImageReport report = std::move(converted);
-  report.bands = source->bands().count();
-  report.quantity = source->quantity();
-  report.notes = source->notes();
-  return report;
+  ImageReport known;
+  known.bands = source->bands().count();
+  known.quantity = source->quantity();
+  known.notes = source->notes();
+  return io::run_image_job({job, output, std::move(spec), options,
+                            io::at_nonfinite(input, options, source->offset()), std::move(known)});
 }
 
 }  // namespace

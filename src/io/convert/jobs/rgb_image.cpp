@@ -40,12 +40,12 @@ Result<RgbImage> read(const std::string& path, const std::string& layer, int thr
 /// Lines of an image in memory, handed to the encoders.
 class RgbJob : public io::MemoryJob {
  public:
-  RgbJob(ColorView rgb, int width, PixelType pixel, const kernels::KernelTable& kernels)
-      : rgb_(rgb), width_(static_cast<std::size_t>(width)), pixel_(pixel), kernels_(kernels) {}
-
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
-    return MemoryJob::prepare(writer, slots, 2 * padded());
-  }
+  RgbJob(ColorView rgb, int width, SampleType pixel, const kernels::KernelTable& kernels)
+      : MemoryJob(2 * padded(width)),
+        rgb_(rgb),
+        width_(static_cast<std::size_t>(width)),
+        pixel_(pixel),
+        kernels_(kernels) {}
 
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& /*stats*/) override {
@@ -54,7 +54,7 @@ class RgbJob : public io::MemoryJob {
     for (std::size_t k = 0; k < 3; ++k) {
       const float* in = rgb_.c[k] + static_cast<std::size_t>(line) * width_;
       std::byte* const out = packed + writer().channel_offset(k);
-      if (pixel_ == PixelType::kFloat) {
+      if (pixel_ == SampleType::kFloat) {
         std::memcpy(out, in, width_ * sizeof(float));
         continue;
       }
@@ -65,10 +65,13 @@ class RgbJob : public io::MemoryJob {
   }
 
  private:
+  static std::size_t padded(int width) {
+    return blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
+  }
   std::size_t padded() const { return blocks_for(width_) * kLanesPerBlock; }
   ColorView rgb_;
   std::size_t width_;
-  PixelType pixel_;
+  SampleType pixel_;
   const kernels::KernelTable& kernels_;
 };
 
@@ -80,21 +83,14 @@ Result<void> write(const std::string& path, const ColorView& rgb, int width, int
                       height);
   }
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  const Imf::Header header(width, height);
-  const int threads = tiles::thread_count(options.threads);
-  const exr_pixel_type_t type = options.pixel == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  const PixelWindow window = {0, 0, width, height};
+  const io::PartHeader header(window, window);
+  RgbJob job(rgb, width, options.pixel, *kernels);
   io::ImageSpec spec;
   spec.source = &header;
-  spec.channels = {{"R", type}, {"G", type}, {"B", type}};
-  spec.compression = options.compression;
-  const std::size_t slots = io::slot_count(spec, width, threads);
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(path, spec, slots));
-  RgbJob job(rgb, width, options.pixel, *kernels);
-  SPECTILE_TRY(job.prepare(*writer, slots));
-  const auto stats =
-      io::run_conversion(job, *writer, slots, height, options, [](const io::LineStats&) { return false; });
-  if (!stats) return stats.error();
-  return writer->commit();
+  spec.channels = {{"R", options.pixel}, {"G", options.pixel}, {"B", options.pixel}};
+  SPECTILE_TRY(io::run_image_job({job, path, std::move(spec), options, {}, {}}));
+  return {};
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <spectile/image/settings.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/conversion.hpp"
 #include "src/io/convert/frame/mip_levels.hpp"
 #include "src/io/convert/frame/output.hpp"
@@ -17,8 +16,6 @@
 #include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/stages/color_stage.hpp"
 #include "src/io/convert/stages/line_solver.hpp"
-#include "src/io/exr/attributes.hpp"
-#include "src/lanes/tiles.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
@@ -58,18 +55,18 @@ class UpsampleJob : public io::FilteredJob {
   std::vector<io::ChannelSpec> channels() const {
     std::vector<io::ChannelSpec> out;
     for (const io::PlaneSpec& plane : source_.planes()) {
-      out.push_back({plane.name, io::passing_type(plane)});
+      out.push_back({plane.name, plane.type});
     }
     if (options_.store == Store::kCoefficients) {
       for (const std::string& name : io::coefficient_channels(upsampler_))
-        out.push_back({name, EXR_PIXEL_FLOAT});
+        out.push_back({name, SampleType::kFloat});
       return out;
     }
     io::add_band_channels(out, upsampler_.bands(), options_.quantity, options_.pixel);
     return out;
   }
 
-  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) {
+  Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
       Work work;
@@ -82,6 +79,8 @@ class UpsampleJob : public io::FilteredJob {
     }
     return {};
   }
+
+  int strip_lines(int chunk_lines) const override { return source_.strip_lines(chunk_lines); }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
     auto strip = source_.read(first_line, lines);
@@ -103,15 +102,15 @@ class UpsampleJob : public io::FilteredJob {
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
     Work& work = works_[slot];
     const auto width = static_cast<std::size_t>(strip.width);
-    const io::ColorStage::Settled settled = settle(work, strip, line, stats);
+    const io::ColorStage::Sanitized sanitized = sanitize(work, strip, line, stats);
     if (packed == nullptr) {
-      if (settled.may_be_outside) stage_.limit(line, work.rgb, width, stats);
+      if (sanitized.may_be_outside) stage_.clip_to_gamut(line, work.rgb, width, stats);
       return;
     }
     pass_through(strip, line, packed);
     const io::LineCoefficients of =
-        solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, stats);
-    if (options_.mipmap) filter_.look(of, width);
+        solver_.line(work.solving, work.rgb, width, line, sanitized.may_be_outside, stats);
+    if (options_.mipmap) filter_.scan(of, width);
     if (options_.store == Store::kCoefficients) {
       coefficients(of, width, packed);
     } else {
@@ -130,10 +129,11 @@ class UpsampleJob : public io::FilteredJob {
   void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
     Work& work = works_[slot];
     LineStats counted_before;
-    const io::ColorStage::Settled settled = settle(work, strip, line, counted_before);
+    const io::ColorStage::Sanitized sanitized = sanitize(work, strip, line, counted_before);
     const auto width = static_cast<std::size_t>(strip.width);
-    filter_.filter(solver_.line(work.solving, work.rgb, width, line, settled.may_be_outside, counted_before),
-                   width, rows);
+    filter_.filter(
+        solver_.line(work.solving, work.rgb, width, line, sanitized.may_be_outside, counted_before), width,
+        rows);
   }
 
   void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
@@ -149,12 +149,12 @@ class UpsampleJob : public io::FilteredJob {
 
  private:
   /// A line's RGB as the method takes it.
-  io::ColorStage::Settled settle(Work& work, const Strip& strip, int line, LineStats& stats) const {
+  io::ColorStage::Sanitized sanitize(Work& work, const Strip& strip, int line, LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     work.rgb.set_width(width);
     stage_.load(strip, line, work.rgb);
     stats.masked += mask_.line(strip, line, work.masked.data());
-    return stage_.settle(line, work.rgb, width, stats);
+    return stage_.sanitize(line, work.rgb, width, stats);
   }
 
   static std::uint64_t pixels_of(const io::RgbSource& source) {
@@ -178,7 +178,7 @@ class UpsampleJob : public io::FilteredJob {
       (computed ? stats.costs.computed_pixels : stats.costs.filled_pixels) += run.pixels;
       (computed ? stats.costs.computing_seconds : stats.costs.filling_seconds) += took;
     }
-    stats.limited += packer_.limited(work.bands, of, width);
+    stats.clamped += packer_.clamped(work.bands, of, width);
   }
 
   void pass_through(const Strip& strip, int line, std::byte* packed) const {
@@ -212,10 +212,9 @@ class UpsampleJob : public io::FilteredJob {
 
 Result<ImageReport> upsample(const std::string& input, const std::string& output,
                              const UpsampleImageOptions& options) {
-  SPECTILE_TRY(io::check_distinct(input, output));
-  if (options.masking == Masking::kFile) SPECTILE_TRY(io::check_distinct(options.mask, output));
-  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  const int threads = tiles::thread_count(options.threads);
+  std::vector<std::string> inputs = {input};
+  if (options.masking == Masking::kFile) inputs.push_back(options.mask);
+  SPECTILE_ASSIGN(const auto setup, io::set_up_job(inputs, output, options));
   SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
   if (options.mipmap && options.store == Store::kCoefficients && !io::linear_in_coefficients(upsampler)) {
     return make_error(
@@ -224,36 +223,25 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
         "the spectra, as it is for {}; store spectra instead",
         to_string(options.method), to_string(Method::kMallett));
   }
-  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.layer, threads, options.region));
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.layer, setup.threads, options.region));
 
-  SPECTILE_ASSIGN(auto mask, io::PixelMask::open(options, *source, threads));
+  SPECTILE_ASSIGN(auto mask, io::PixelMask::open(options, *source, setup.threads));
   SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, upsampler.bands()));
-  UpsampleJob job(*source, mask, upsampler, rows, options, *kernels);
-  io::ImageSpec spec;
-  spec.source = &source->header();
-  spec.channels = job.channels();
-  spec.compression = options.compression;
-  spec.tile = io::tiles_of(options);
-  spec.mipmap = options.mipmap;
+  UpsampleJob job(*source, mask, upsampler, rows, options, setup.kernels);
   const bool coefficients = options.store == Store::kCoefficients;
-  spec.replaced = io::method_attribute_names();
-  for (const std::string& name : io::layout_attribute_names()) spec.replaced.push_back(name);
-  spec.text_attributes = io::method_attributes(upsampler, options, coefficients);
-  if (!coefficients) io::add_layout_attributes(spec.text_attributes, options.quantity, options.bands);
-  spec.text_attributes.emplace_back(io::kSettingsAttribute, settings_text(options));
-  const std::size_t slots = io::slot_count(spec, source->width(), threads);
-  SPECTILE_ASSIGN(auto writer, io::ExrWriter::create(output, spec, slots));
-  SPECTILE_TRY(job.prepare(*writer, slots + io::filter_slots(options)));
-
-  const int lines = io::strip_lines(*spec.source, source->planes(), writer->lines_per_chunk());
+  auto texts = io::method_attributes(upsampler, options, coefficients);
+  if (!coefficients) io::add_layout_attributes(texts, options.quantity, options.bands);
+  io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
+                                           settings_text(options));
+  spec.replaced = io::spectral_attribute_names();
+  ImageReport known;
+  known.bands = options.bands.count();
+  known.quantity = options.quantity;
+  known.color_space = job.stage().space().description;
+  known.notes = source->notes();
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  LineStats stats;
-  SPECTILE_ASSIGN(auto converted, io::convert(job, *writer, slots, lines, options, refusal, &stats));
-  ImageReport report = std::move(converted);
-  report.bands = options.bands.count();
-  report.quantity = options.quantity;
-  report.color_space = job.stage().space().description;
-  report.notes = source->notes();
+  SPECTILE_ASSIGN(auto report,
+                  io::run_image_job({job, output, std::move(spec), options, refusal, std::move(known)}));
   if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
     report.notes.push_back(
         fmt::format("{} pixel{} of alpha 0 with a colour: they become black; --mask none keeps them",

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the error of one rounding
 
-// What coefficients() states for the RGB that a sigmoid's samples come back as.
+// Bound that coefficients() states for the RGB of a sigmoid's samples.
 constexpr double kSigmoidBound = 1e-6;
 
 /// NaN of any kind are the same result; their payload is not specified.
@@ -51,7 +51,7 @@ void merge(const VerifyReport& from, VerifyReport& into) {
   into.max_oracle_difference = std::max(into.max_oracle_difference, from.max_oracle_difference);
 }
 
-/// What the double oracle makes of one colour.
+/// The double oracle of one colour.
 struct UpsamplingOracle {
   const Upsampler& upsampler;
   std::vector<std::array<double, 7>> basis;  // of methods that mix bases
@@ -77,10 +77,10 @@ struct UpsamplingOracle {
     }
     const double size = (std::abs(*low) + (*high - *low)) * largest_basis;
     if (!(size > 0x1p-100) || !std::isfinite(size)) return {};
-    const auto truth = oracle::smits_spectrum(basis, rgb, upsampler.lowest());
+    const auto reference = oracle::smits_spectrum(basis, rgb, upsampler.lowest());
     double most = 0;
     for (std::size_t b = 0; b < samples.size(); ++b) {
-      most = std::max(most, std::abs(static_cast<double>(samples[b]) - truth[b]) / size);
+      most = std::max(most, std::abs(static_cast<double>(samples[b]) - reference[b]) / size);
     }
     return most;
   }
@@ -165,10 +165,11 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
         spectrum[b] = block[b * kLanesPerBlock + i];
         for (std::size_t k = 0; k < 3; ++k) size[k] += std::abs(oracle_weights[b][k] * spectrum[b]);
       }
-      const auto truth = oracle::project(oracle_weights, spectrum);
+      const auto reference = oracle::project(oracle_weights, spectrum);
       for (std::size_t k = 0; k < 3; ++k) {
         if (!(size[k] > 0x1p-100) || !std::isfinite(size[k])) continue;
-        const double difference = std::abs(static_cast<double>(expected[k * kLanesPerBlock + i]) - truth[k]);
+        const double difference =
+            std::abs(static_cast<double>(expected[k * kLanesPerBlock + i]) - reference[k]);
         report.max_oracle_difference = std::max(report.max_oracle_difference, difference / size[k]);
       }
     }

@@ -1,9 +1,6 @@
 // The RGB space that a file declares, and its way to linear sRGB.
 #include "src/io/convert/sources/color_space.hpp"
 
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfStringAttribute.h>
-
 #include <cmath>
 #include <string_view>
 
@@ -26,8 +23,8 @@ bool close(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::abs(a[0] - b[0]) < 1e-4 && std::abs(a[1] - b[1]) < 1e-4;
 }
 
-std::array<double, 2> pair(const Imath::V2f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y)};
+std::array<double, 2> pair(const std::array<float, 2>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1])};
 }
 
 Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path) {
@@ -44,14 +41,13 @@ Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path)
 
 }  // namespace
 
-Result<RgbSpace> color_space_of(const Imf::Header& header, const std::string& path) {
-  const auto* id = header.findTypedAttribute<Imf::StringAttribute>("colorInteropID");
-  if (id != nullptr && id->value() != "unknown" && !id->value().empty())
-    return from_interop_id(id->value(), path);
-  const auto* declared = header.findTypedAttribute<Imf::ChromaticitiesAttribute>("chromaticities");
-  if (declared == nullptr) return RgbSpace{};
-  const Imf::Chromaticities& c = declared->value();
-  const Chromaticities space = {pair(c.red), pair(c.green), pair(c.blue), pair(c.white)};
+Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& path) {
+  const std::string id = header.text("colorInteropID").value_or("");
+  if (!id.empty() && id != "unknown") return from_interop_id(id, path);
+  const auto declared = header.chromaticities();
+  if (!declared) return RgbSpace{};
+  const auto& [red, green, blue, white] = *declared;
+  const Chromaticities space = {pair(red), pair(green), pair(blue), pair(white)};
   bool finite = true;
   for (const auto& xy : {space.red, space.green, space.blue, space.white}) {
     finite = finite && std::isfinite(xy[0]) && std::isfinite(xy[1]);
@@ -62,7 +58,7 @@ Result<RgbSpace> color_space_of(const Imf::Header& header, const std::string& pa
     return make_error(
         ErrorCode::kBadFile,
         "{}: chromaticities red ({}, {}) green ({}, {}) blue ({}, {}) white ({}, {}) span no RGB space", path,
-        c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y);
+        red[0], red[1], green[0], green[1], blue[0], blue[1], white[0], white[1]);
   }
   const RgbSpace out{"", "chromaticities of the file", space, false};
   if (is_srgb(out)) return RgbSpace{"rec709", "linear Rec.709 (chromaticities)", kRec709, false};

@@ -1,12 +1,12 @@
 // The RGB space that a file declares, and its way to linear sRGB.
 #pragma once
 
-#include <OpenEXR/ImfHeader.h>
-
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/result.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
+
+#include "src/io/exr/part_header.hpp"
 
 namespace spectile::io {
 
@@ -14,9 +14,9 @@ namespace spectile::io {
 /// Errors: kBadFile for a colorInteropID that is not linear, is not a colour or is unknown, and for
 /// chromaticities that span no triangle. Source of the names: Color Interop Forum, Color Space Encodings for
 /// Texture Assets and CG Rendering, 2024.
-Result<RgbSpace> color_space_of(const Imf::Header& header, const std::string& path);
+Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& path);
 
-/// Whether RGB needs no conversion to be linear sRGB.
+/// True for linear sRGB.
 bool is_srgb(const RgbSpace& space);
 
 /// RGB of the space to linear sRGB. White: a reflectance's is adapted from the space's to D65, so that 1, 1,

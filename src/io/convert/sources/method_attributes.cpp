@@ -1,8 +1,6 @@
 // The attributes by which a file says how its spectra, or its coefficients, were made.
 #include "src/io/convert/sources/method_attributes.hpp"
 
-#include <OpenEXR/ImfStringAttribute.h>
-
 #include <charconv>
 #include <optional>
 
@@ -53,12 +51,6 @@ std::optional<std::vector<double>> parse_tuples(const std::string& text, std::si
   return {};
 }
 
-std::optional<std::string> text_of(const Imf::Header& header, const char* name) {
-  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
-  if (attribute == nullptr) return {};
-  return attribute->value();
-}
-
 Error damaged(const std::string& path, const char* name) {
   return make_error(ErrorCode::kBadFile, "{}: attribute {} is missing or damaged", path, name);
 }
@@ -77,10 +69,9 @@ std::vector<std::string> method_attribute_names() {
           "spectileKeepNegative", "spectileCoefficients", kPlanAttribute};
 }
 
-std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampler& upsampler,
-                                                                   const MethodOptions& options,
-                                                                   bool coefficients) {
-  std::vector<std::pair<std::string, std::string>> out;
+TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions& options,
+                                 bool coefficients) {
+  TextAttributes out;
   out.emplace_back("spectileMethod", std::string(to_string(upsampler.method())));
   out.emplace_back("spectileLight", options.light ? options.light->name : "D65");
   out.emplace_back("spectileObserver", upsampler.options().observer == Observer::kCie1964 ? "1964" : "1931");
@@ -94,14 +85,14 @@ std::vector<std::pair<std::string, std::string>> method_attributes(const Upsampl
   return out;
 }
 
-Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& path) {
-  const auto layout = text_of(header, "spectileCoefficients");
+Result<Upsampler> upsampler_of(const PartHeader& header, const std::string& path) {
+  const auto layout = header.text("spectileCoefficients");
   if (layout != kLayout) return damaged(path, "spectileCoefficients");
-  const auto method = parse_method(text_of(header, "spectileMethod").value_or(""));
+  const auto method = parse_method(header.text("spectileMethod").value_or(""));
   if (!method) return damaged(path, "spectileMethod");
-  const auto quantity = parse_quantity(text_of(header, "spectileQuantity").value_or(""));
+  const auto quantity = parse_quantity(header.text("spectileQuantity").value_or(""));
   if (!quantity) return damaged(path, "spectileQuantity");
-  const auto edges = parse_tuples(text_of(header, "spectileBands").value_or(""), 3);
+  const auto edges = parse_tuples(header.text("spectileBands").value_or(""), 3);
   if (!edges) return damaged(path, "spectileBands");
   std::vector<Band> list;
   for (std::size_t i = 0; i < edges->size(); i += 3) {
@@ -114,16 +105,16 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   if (!stored) return damaged(path, "spectileBands");
   SPECTILE_ASSIGN(const auto bands, with_plan(header, *stored, path));
   UpsamplerOptions options;
-  const auto observer = text_of(header, "spectileObserver");
+  const auto observer = header.text("spectileObserver");
   if (observer != "1931" && observer != "1964") return damaged(path, "spectileObserver");
   if (observer == "1964") options.observer = Observer::kCie1964;
-  if (const auto keep = text_of(header, "spectileKeepNegative")) {
+  if (const auto keep = header.text("spectileKeepNegative")) {
     if (keep != "yes") return damaged(path, "spectileKeepNegative");
     options.negative = NegativeSamples::kKeep;
   }
   const std::string light_name = light_name_of(header);
   if (light_name.empty()) return damaged(path, "spectileLight");
-  if (const auto samples = text_of(header, "spectileLightSamples")) {
+  if (const auto samples = header.text("spectileLightSamples")) {
     const auto pairs = parse_tuples(*samples, 2);
     if (!pairs) return damaged(path, "spectileLightSamples");
     std::vector<double> wavelengths;
@@ -145,8 +136,8 @@ Result<Upsampler> upsampler_of(const Imf::Header& header, const std::string& pat
   return upsampler;
 }
 
-std::string light_name_of(const Imf::Header& header) {
-  return text_of(header, "spectileLight").value_or("");
+std::string light_name_of(const PartHeader& header) {
+  return header.text("spectileLight").value_or("");
 }
 
 }  // namespace spectile::io

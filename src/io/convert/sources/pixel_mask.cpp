@@ -1,8 +1,6 @@
 // PixelMask: which pixels of an image need no spectra, by its own alpha or by another image.
 #include "src/io/convert/sources/pixel_mask.hpp"
 
-#include <OpenEXR/ImfChannelList.h>
-
 #include <algorithm>
 
 #include "src/base/errors.hpp"
@@ -61,20 +59,20 @@ Result<PixelMask> PixelMask::open(const UpsampleImageOptions& options, const Rgb
 Result<void> PixelMask::choose(const RgbSource& source) {
   const std::string& path = file_->path();
   for (int part = 0; part < file_->parts(); ++part) {
-    if (file_->deep(part)) continue;
-    const Imf::Header& header = file_->header(part);
+    if (file_->header(part).deep()) continue;
+    const PartHeader& header = file_->header(part);
     for (const char* const name : {"A", "Y", "R"}) {
-      const Imf::Channel* const channel = header.channels().findChannel(name);
+      const StoredChannel* const channel = header.find(name);
       if (channel == nullptr) continue;
-      if (channel->xSampling != 1 || channel->ySampling != 1) {
+      if (channel->subsampled()) {
         return make_error(ErrorCode::kBadFile,
                           "{}: channel \"{}\" is subsampled {} x {}, which no mask can be", path, name,
-                          channel->xSampling, channel->ySampling);
+                          channel->x_sampling, channel->y_sampling);
       }
-      const Imf::Header& whole = source.whole();
-      if (width_of(header) != width_of(whole) || height_of(header) != height_of(whole)) {
+      const PartHeader& whole = source.whole();
+      if (header.width() != whole.width() || header.height() != whole.height()) {
         return make_error(ErrorCode::kBadFile, "{}: is {} x {}, the image that it masks {} x {}", path,
-                          width_of(header), height_of(header), width_of(whole), height_of(whole));
+                          header.width(), header.height(), whole.width(), whole.height());
       }
       part_ = part;
       channel_ = name;
@@ -86,14 +84,13 @@ Result<void> PixelMask::choose(const RgbSource& source) {
 
 /// The part of the mask that goes with the part of the source, wherever the mask's own data window begins.
 Result<void> PixelMask::crop(const RgbSource& source) {
-  if (source.width() == width_of(source.whole()) && source.height() == height_of(source.whole())) return {};
-  const Imath::V2i corner = file_->header(part_).dataWindow().min;
-  const int x = corner.x + source.offset()[0];
-  const int y = corner.y + source.offset()[1];
+  if (source.width() == source.whole().width() && source.height() == source.whole().height()) return {};
+  const PixelWindow& own = file_->header(part_).data_window();
+  const int x = own.x0 + source.offset()[0];
+  const int y = own.y0 + source.offset()[1];
   std::vector<std::string> notes;
   SPECTILE_ASSIGN(
-      region_,
-      RegionReader::create(*file_, part_, {x, y, x + source.width() - 1, y + source.height() - 1}, notes));
+      region_, RegionReader::create(*file_, part_, {x, y, x + source.width(), y + source.height()}, notes));
   return {};
 }
 
@@ -106,7 +103,7 @@ Result<void> PixelMask::read(Strip& strip) {
   strip.planes.push_back(std::move(own->planes[0]));
   strip.stride_bytes.push_back(own->stride_bytes[0]);
   strip.row_bytes.push_back(own->row_bytes[0]);
-  const int height = height_of(region_ ? region_->header() : file_->header(part_));
+  const int height = (region_ ? region_->header() : file_->header(part_)).height();
   if (strip.first_line + strip.lines == height) SPECTILE_TRY(file_->unchanged());
   return {};
 }
@@ -123,11 +120,11 @@ Result<std::uint64_t> PixelMask::apply(Strip& strip) {
     std::fill(colored_.begin(), colored_.end(), std::uint8_t{0});
     for (std::size_t k = 0; k < color_types_.size(); ++k) {
       std::byte* const row = strip.row(k, at);
-      if (color_types_[k] == Imf::HALF) {
+      if (color_types_[k] == SampleType::kHalf) {
         note_colored<std::uint16_t>(row, 0x7FFF, colored_.data(), width);
         blacken<std::uint16_t>(row, masked_.data(), width);
       } else {
-        const std::uint32_t zero = color_types_[k] == Imf::FLOAT ? 0x7FFFFFFF : 0xFFFFFFFF;
+        const std::uint32_t zero = color_types_[k] == SampleType::kFloat ? 0x7FFFFFFF : 0xFFFFFFFF;
         note_colored<std::uint32_t>(row, zero, colored_.data(), width);
         blacken<std::uint32_t>(row, masked_.data(), width);
       }
@@ -142,9 +139,9 @@ std::uint64_t PixelMask::line(const Strip& strip, int line, std::uint8_t* masked
   const std::byte* const row = strip.row(*plane_, line);
   const auto width = static_cast<std::size_t>(strip.width);
   switch (type_) {
-    case Imf::HALF:
+    case SampleType::kHalf:
       return zeros<std::uint16_t>(row, 0x7FFF, masked, width);
-    case Imf::FLOAT:
+    case SampleType::kFloat:
       return zeros<std::uint32_t>(row, 0x7FFFFFFF, masked, width);
     default:
       return zeros<std::uint32_t>(row, 0xFFFFFFFF, masked, width);

@@ -36,9 +36,9 @@ class PixelMask {
   Result<void> crop(const RgbSource& source);
 
   std::optional<std::size_t> plane_;  // of strips; none where no pixel is masked
-  Imf::PixelType type_ = Imf::FLOAT;
-  std::array<Imf::PixelType, 3> color_types_{};  // of planes 0, 1, 2
-  std::vector<std::uint8_t> masked_, colored_;   // of a line
+  SampleType type_ = SampleType::kFloat;
+  std::array<SampleType, 3> color_types_{};     // of planes 0, 1, 2
+  std::vector<std::uint8_t> masked_, colored_;  // of a line
   std::unique_ptr<ExrInput> file_;
   std::optional<RegionReader> region_;  // where the source reads a part only
   int part_ = 0;

@@ -1,8 +1,6 @@
 // The plan of a file's bands, as an attribute.
 #include "src/io/convert/sources/plan_attribute.hpp"
 
-#include <OpenEXR/ImfStringAttribute.h>
-
 #include <cmath>
 #include <spectile/image/plan_file.hpp>
 #include <spectile/plan/plan.hpp>
@@ -11,15 +9,15 @@
 
 namespace spectile::io {
 
-void add_plan_attribute(std::vector<std::pair<std::string, std::string>>& texts, const Bands& bands) {
+void add_plan_attribute(TextAttributes& texts, const Bands& bands) {
   if (bands.weights() == nullptr) return;
   texts.emplace_back(kPlanAttribute, plan_to_json(plan_of_bands(bands), true));
 }
 
-Result<Bands> with_plan(const Imf::Header& header, const Bands& bands, const std::string& path) {
-  const auto* const text = header.findTypedAttribute<Imf::StringAttribute>(kPlanAttribute);
-  if (text == nullptr) return bands;
-  SPECTILE_ASSIGN(const auto plan, parse_plan(text->value(), path + ": attribute " + kPlanAttribute));
+Result<Bands> with_plan(const PartHeader& header, const Bands& bands, const std::string& path) {
+  const auto text = header.text(kPlanAttribute);
+  if (!text) return bands;
+  SPECTILE_ASSIGN(const auto plan, parse_plan(*text, path + ": attribute " + kPlanAttribute));
   auto planned = planned_bands(plan);
   if (!planned) return make_error(ErrorCode::kBadFile, "{}: {}", path, planned.error().message);
   bool same = planned->count() == bands.count();

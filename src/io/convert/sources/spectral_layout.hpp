@@ -7,7 +7,7 @@
 
 namespace spectile::io {
 
-/// What a spectral channel holds.
+/// Kinds of spectral channels.
 enum class SpectralKind {
   kReflective,  ///< T: reflectance or transmittance
   kEmissive,    ///< S0: emitted or arriving light

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/exr/exr_input.hpp"
-#include "src/io/exr/region.hpp"
-#include "src/io/exr/strips.hpp"
+#include "src/io/convert/sources/image_source.hpp"
 
 namespace spectile::io {
 
@@ -24,28 +22,22 @@ struct SpectralChannels {
 
 /// Finds a part's spectral channels of the quantity asked for, else the reflective ones, else the emissive
 /// ones. Nothing where there are none.
-std::optional<SpectralChannels> spectral_channels(const Imf::Header& header, std::optional<Quantity> wanted);
+std::optional<SpectralChannels> spectral_channels(const PartHeader& header, std::optional<Quantity> wanted);
+
+/// The planes of spectral channels, in their order. Errors: kBadFile for one that is subsampled.
+Result<std::vector<PlaneSpec>> band_planes(const PartHeader& header, const SpectralChannels& channels,
+                                           const std::string& path);
 
 /// Planes 0 to bands - 1 of its strips are the bands, the others pass through.
-class SpectralSource {
+class SpectralSource : public ImageSource {
  public:
   /// Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, std::optional<Quantity> wanted,
-                                                      int threads, const Crop& region = {});
+                                                      int threads,
+                                                      const std::optional<PixelWindow>& region = {});
 
-  /// That of the part, with the region as data window.
-  const Imf::Header& header() const { return region_ ? region_->header() : input_->header(part_); }
-  /// Of the region within the data window.
-  std::array<int, 2> offset() const { return region_ ? region_->offset() : std::array<int, 2>{}; }
-  int width() const { return width_of(header()); }
-  int height() const { return height_of(header()); }
   Quantity quantity() const noexcept { return channels_.quantity; }
   const Bands& bands() const noexcept { return bands_; }
-  const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
-  const std::vector<std::string>& notes() const noexcept { return notes_; }
-
-  /// Reads lines into a new strip. Errors: kBadFile, kOutOfMemory.
-  Result<std::shared_ptr<Strip>> read(int first_line, int lines);
 
   /// The spectra of kLanesPerBlock pixels from x on, as a block [band][64]; x a multiple of kLanesPerBlock,
   /// pixels after the line's end zero.
@@ -54,13 +46,8 @@ class SpectralSource {
 
  private:
   SpectralSource() = default;
-  std::unique_ptr<ExrInput> input_;
-  std::optional<RegionReader> region_;
-  int part_ = 0;
   SpectralChannels channels_;
   Bands bands_;
-  std::vector<PlaneSpec> planes_;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace spectile::io

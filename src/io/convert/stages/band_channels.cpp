@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/base/errors.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/sources/plan_attribute.hpp"
 #include "src/io/convert/sources/spectral_layout.hpp"
 
@@ -29,19 +30,23 @@ void fill_row(std::byte* row, std::size_t at, std::size_t n, Sample sample) {
 }  // namespace
 
 void add_band_channels(std::vector<ChannelSpec>& channels, const Bands& bands, Quantity quantity,
-                       PixelType type) {
+                       SampleType type) {
   const auto kind = quantity == Quantity::kIlluminant ? SpectralKind::kEmissive : SpectralKind::kReflective;
-  const exr_pixel_type_t stored = type == PixelType::kHalf ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
   for (const Band& band : bands.list())
-    channels.push_back({spectral_channel_name(kind, band.centre_nm), stored});
+    channels.push_back({spectral_channel_name(kind, band.centre_nm), type});
 }
 
 std::vector<std::string> layout_attribute_names() {
   return {"spectralLayoutVersion", "emissiveUnits", kPlanAttribute};
 }
 
-void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity,
-                           const Bands& bands) {
+std::vector<std::string> spectral_attribute_names() {
+  std::vector<std::string> out = method_attribute_names();
+  for (std::string& name : layout_attribute_names()) out.push_back(std::move(name));
+  return out;
+}
+
+void add_layout_attributes(TextAttributes& texts, Quantity quantity, const Bands& bands) {
   texts.emplace_back("spectralLayoutVersion", "1.0");
   if (quantity == Quantity::kIlluminant) texts.emplace_back("emissiveUnits", "W.m^-2.sr^-1");
   add_plan_attribute(texts, bands);
@@ -59,7 +64,7 @@ float largest_magnitude(const float* row, std::size_t n) {
 
 BandPacker::BandPacker(const kernels::KernelTable& kernels, const rows::SampledRows& rows,
                        const ImageOptions& options)
-    : kernels_(kernels), rows_(rows), half_(options.pixel == PixelType::kHalf) {
+    : kernels_(kernels), rows_(rows), half_(options.pixel == SampleType::kHalf) {
   segment_ = std::max<std::size_t>(kLanesPerBlock, options.tile_lanes / kLanesPerBlock * kLanesPerBlock);
 }
 
@@ -74,7 +79,7 @@ Result<BandPacker::Work> BandPacker::work() const {
 std::uint64_t BandPacker::line(Work& work, const LineCoefficients& of, std::size_t width,
                                const ExrWriter& writer, std::size_t first, std::byte* packed) const {
   run(work, of, {0, width, width}, writer, first, packed);
-  return limited(work, of, width);
+  return clamped(work, of, width);
 }
 
 void BandPacker::run(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
@@ -113,8 +118,8 @@ void BandPacker::fill(Work& work, const LineCoefficients& of, const Part& part, 
   }
 }
 
-std::uint64_t BandPacker::limited(Work& work, const LineCoefficients& of, std::size_t width) const {
-  return half_ && may_exceed_half(of, width) ? count_limited(work, of, width) : 0;
+std::uint64_t BandPacker::clamped(Work& work, const LineCoefficients& of, std::size_t width) const {
+  return half_ && may_exceed_half(of, width) ? count_clamped(work, of, width) : 0;
 }
 
 bool BandPacker::may_exceed_half(const LineCoefficients& of, std::size_t width) const {
@@ -124,20 +129,20 @@ bool BandPacker::may_exceed_half(const LineCoefficients& of, std::size_t width) 
   return rows_.bound(largest) > kernels::kHalfMax;
 }
 
-std::uint64_t BandPacker::count_limited(Work& work, const LineCoefficients& of, std::size_t width) const {
+std::uint64_t BandPacker::count_clamped(Work& work, const LineCoefficients& of, std::size_t width) const {
   float* const greatest = work.block.data() + rows_.count() * kLanesPerBlock;
   float* const least = greatest + kLanesPerBlock;
-  std::uint64_t limited = 0;
+  std::uint64_t count = 0;
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     const LineCoefficients segment = from(of, at);
     rows_.expand_blocks(kernels_, segment.c, segment.scale, work.block.data(), 1);
     kernels_.maximum(greatest, work.block.data(), rows_.count(), 1);
     kernels_.minimum(least, work.block.data(), rows_.count(), 1);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
-      limited += greatest[i] > kernels::kHalfMax || least[i] < -kernels::kHalfMax ? 1 : 0;
+      count += greatest[i] > kernels::kHalfMax || least[i] < -kernels::kHalfMax ? 1 : 0;
     }
   }
-  return limited;
+  return count;
 }
 
 }  // namespace spectile::io

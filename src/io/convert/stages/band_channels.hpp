@@ -16,13 +16,14 @@ namespace spectile::io {
 
 /// Appends a channel for each band to a spec.
 void add_band_channels(std::vector<ChannelSpec>& channels, const Bands& bands, Quantity quantity,
-                       PixelType type);
+                       SampleType type);
 
 /// Names of the layout's own attributes.
 std::vector<std::string> layout_attribute_names();
+/// Those and the names of method_attributes(): all that say how spectra were made.
+std::vector<std::string> spectral_attribute_names();
 /// Appends the layout's own attributes, and the plan of the bands where they have one: name and text.
-void add_layout_attributes(std::vector<std::pair<std::string, std::string>>& texts, Quantity quantity,
-                           const Bands& bands);
+void add_layout_attributes(TextAttributes& texts, Quantity quantity, const Bands& bands);
 
 /// Coefficients of a line, at multiples of 64 bytes and readable up to whole blocks.
 struct LineCoefficients {
@@ -53,7 +54,7 @@ class BandPacker {
   Result<Work> work() const;
 
   /// Packs `width` pixels at `packed`, the first band being the writer's channel `first`. Returns how many
-  /// have a sample that was limited to the largest half.
+  /// have a sample that was clamped to the largest half.
   std::uint64_t line(Work& work, const LineCoefficients& of, std::size_t width, const ExrWriter& writer,
                      std::size_t first, std::byte* packed) const;
 
@@ -69,12 +70,12 @@ class BandPacker {
   /// The same bytes for pixels that all have the coefficients of the first.
   void fill(Work& work, const LineCoefficients& of, const Part& part, const ExrWriter& writer,
             std::size_t first, std::byte* packed) const;
-  /// How many pixels of a line have a sample that was limited.
-  std::uint64_t limited(Work& work, const LineCoefficients& of, std::size_t width) const;
+  /// How many pixels of a line have a sample that was clamped.
+  std::uint64_t clamped(Work& work, const LineCoefficients& of, std::size_t width) const;
 
  private:
   bool may_exceed_half(const LineCoefficients& of, std::size_t width) const;
-  std::uint64_t count_limited(Work& work, const LineCoefficients& of, std::size_t width) const;
+  std::uint64_t count_clamped(Work& work, const LineCoefficients& of, std::size_t width) const;
 
   const kernels::KernelTable& kernels_;
   const rows::SampledRows& rows_;

@@ -72,7 +72,7 @@ Result<BandFilter::Work> BandFilter::work(int width) const {
   return out;
 }
 
-void BandFilter::look(const LineCoefficients& of, std::size_t width) {
+void BandFilter::scan(const LineCoefficients& of, std::size_t width) {
   if (linear_ || !linear_above_ || below_.load(std::memory_order_relaxed)) return;
   for (const float* const row : of.c) {
     float least = 0;
@@ -135,7 +135,7 @@ void BandFilter::pack(Work& work, BandPacker::Work& bands, const Averages& from,
 }
 
 void BandFilter::store(Work& work, const float* row, std::size_t width, std::byte* out) const {
-  if (options_.pixel == PixelType::kFloat) {
+  if (options_.pixel == SampleType::kFloat) {
     std::memcpy(out, row, width * sizeof(float));
     return;
   }

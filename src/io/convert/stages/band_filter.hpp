@@ -13,7 +13,7 @@
 
 namespace spectile::io {
 
-/// Whether the spectrum of averaged coefficients is the average of the spectra, where no sample is limited.
+/// True if the spectrum of averaged coefficients is the average of the spectra, where no sample is clamped.
 bool linear_in_coefficients(const Upsampler& upsampler);
 
 /// Three coefficients in the planes of a strip, from plane `first` on.
@@ -21,7 +21,7 @@ LineCoefficients coefficients_in(const Strip& strip, int line, std::size_t first
 
 /// The least that has the averages of spectra: the RGB of methods that are linear in it; else the weights of
 /// the seven bases, where samples are linear in them; else the samples of all bands. Averages of float
-/// samples all, before they are limited to halves.
+/// samples all, before they are clamped to halves.
 class BandFilter {
  public:
   /// Work space of one slot.
@@ -30,16 +30,16 @@ class BandFilter {
     FloatBuffer halves;
   };
 
-  /// All must outlive it. `stored`: whether the coefficients are what is written, and so what is averaged.
+  /// All must outlive it. `stored`: the coefficients are written, and so averaged.
   BandFilter(const kernels::KernelTable& kernels, const Upsampler& upsampler, const rows::SampledRows& rows,
              const BandPacker& packer, const ImageOptions& options, bool stored);
 
   /// Errors: kOutOfMemory.
   Result<Work> work(int width) const;
 
-  /// Must have seen every line before rows() is asked: a component below 0 can make samples that are limited.
+  /// Must have seen every line before rows() is asked: a component below 0 can make samples that are clamped.
   /// Any number of threads may call it.
-  void look(const LineCoefficients& of, std::size_t width);
+  void scan(const LineCoefficients& of, std::size_t width);
 
   /// Rows that are averaged.
   std::size_t rows() const noexcept;

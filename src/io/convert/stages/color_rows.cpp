@@ -19,31 +19,26 @@ std::vector<const char*> color_channels(ColorTarget target) {
   return {"R", "G", "B"};
 }
 
-exr_pixel_type_t passing_type(const PlaneSpec& plane) {
-  if (plane.type == Imf::HALF) return EXR_PIXEL_HALF;
-  return plane.type == Imf::FLOAT ? EXR_PIXEL_FLOAT : EXR_PIXEL_UINT;
-}
-
-std::uint64_t limit_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
+std::uint64_t clamp_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
                             std::size_t width) {
   float* const* rows = line.rows;
-  std::uint64_t limited = 0;
+  std::uint64_t clamped = 0;
   for (std::size_t x = 0; x < width; ++x) {
     bool beyond = false;
     for (std::size_t k = 0; k < count; ++k) beyond = beyond || std::fabs(rows[k][x]) > kernels::kHalfMax;
-    limited += beyond ? 1 : 0;
+    clamped += beyond ? 1 : 0;
   }
-  if (limited > 0) {
+  if (clamped > 0) {
     for (std::size_t k = 0; k < count; ++k) {
       kernels.clamp(rows[k], rows[k], -kernels::kHalfMax, kernels::kHalfMax, line.padded);
     }
   }
-  return limited;
+  return clamped;
 }
 
 void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
-               PixelType type, FloatBuffer& halves, std::byte* out) {
-  if (type == PixelType::kFloat) {
+               SampleType type, FloatBuffer& halves, std::byte* out) {
+  if (type == SampleType::kFloat) {
     std::memcpy(out, line.rows[row], width * sizeof(float));
     return;
   }

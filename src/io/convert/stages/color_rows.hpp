@@ -17,16 +17,13 @@ namespace spectile::io {
 /// Channels of a colour.
 std::vector<const char*> color_channels(ColorTarget target);
 
-/// The type in which a plane passes through.
-exr_pixel_type_t passing_type(const PlaneSpec& plane);
-
-/// Limits what a half cannot hold in the first `count` rows, and counts its pixels.
-std::uint64_t limit_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
+/// Clamps what a half cannot hold in the first `count` rows, and counts its pixels.
+std::uint64_t clamp_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
                             std::size_t width);
 
 /// Packs a row at `out`, as floats or halves; `halves` is work space of at least half the padded width.
 void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
-               PixelType type, FloatBuffer& halves, std::byte* out);
+               SampleType type, FloatBuffer& halves, std::byte* out);
 
 /// Takes a line of a strip of floats, from plane `first` on, into the first `count` rows.
 void load_colors(const Strip& strip, int line, std::size_t first, std::size_t count, ColorLine& to);

@@ -9,7 +9,7 @@
 namespace spectile::io {
 namespace {
 
-/// What a block holds.
+/// Contents of a block.
 struct Block {
   ColorRun::Kind kind = ColorRun::Kind::kComputed;
   std::uint64_t black = 0;

@@ -24,27 +24,27 @@ ColorStage::ColorStage(const RgbSource& source, const Upsampler& upsampler, cons
 float ColorStage::line(const Strip& strip, int line, const ColorLine& color, LineStats& stats) const {
   const auto width = static_cast<std::size_t>(strip.width);
   load(strip, line, color);
-  const Settled settled = settle(line, color, width, stats);
-  if (settled.may_be_outside) limit(line, color, width, stats);
-  return settled.largest;
+  const Sanitized sanitized = sanitize(line, color, width, stats);
+  if (sanitized.may_be_outside) clip_to_gamut(line, color, width, stats);
+  return sanitized.largest;
 }
 
 void ColorStage::load(const Strip& strip, int line, const ColorLine& color) const {
   source_.float_rows(kernels_, strip, line, color.rows);
 }
 
-ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::size_t width,
-                                       LineStats& stats) const {
+ColorStage::Sanitized ColorStage::sanitize(int line, const ColorLine& color, std::size_t width,
+                                           LineStats& stats) const {
   float* const* rows = color.rows;
   const float* const rgb[3] = {rows[0], rows[1], rows[2]};
-  settle_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
+  sanitize_nonfinite(kernels_, rows, width, line, options_.nonfinite, stats);
   LineStats own;
-  float largest = settle_range(kernels_, rows, width, line, options_.negative, own);
+  float largest = sanitize_range(kernels_, rows, width, line, options_.negative, own);
   stats.negative.add(own.negative);
   if (convert_) {
     kernels_.transform3(rows, rgb, matrix_.data(), color.padded);
     own = {};
-    largest = settle_range(kernels_, rows, width, line, NegativeInput::kKeep, own);
+    largest = sanitize_range(kernels_, rows, width, line, NegativeInput::kKeep, own);
   }
   stats.over_one += own.over_one;
   // Most lines have no colour that any method could not make.
@@ -53,7 +53,7 @@ ColorStage::Settled ColorStage::settle(int line, const ColorLine& color, std::si
           own.negative.count > 0 || (bounded && own.over_one > 0) || !rows::covers_unit_cube(upsampler_)};
 }
 
-void ColorStage::limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
+void ColorStage::clip_to_gamut(int line, const ColorLine& color, std::size_t width, LineStats& stats) const {
   const GamutReport found = rows::gamut_clip(kernels_, upsampler_, color.rows, out_of_gamut_, width);
   if (found.outside > 0) stats.outside.add(found.outside, static_cast<int>(found.first), line);
 }

@@ -27,14 +27,14 @@ class ColorStage {
   /// A line's samples as floats.
   void load(const Strip& strip, int line, const ColorLine& color) const;
   /// The largest magnitude of a component, and whether there may be colours that the method cannot make.
-  struct Settled {
+  struct Sanitized {
     float largest = 0;
     bool may_be_outside = false;
   };
-  /// What is not finite, the range, and the matrix to the method's RGB.
-  Settled settle(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
+  /// Treats pixels that are not finite, checks the range, and converts to the method's RGB.
+  Sanitized sanitize(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
   /// Colours of the method's RGB that it cannot make, of the whole line.
-  void limit(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
+  void clip_to_gamut(int line, const ColorLine& color, std::size_t width, LineStats& stats) const;
 
   /// The space that the input's RGB is taken for.
   const RgbSpace& space() const noexcept { return space_; }

@@ -55,8 +55,8 @@ LineCoefficients LineSolver::line(Work& work, const ColorLine& rgb, std::size_t 
     work.runs = {{ColorRun::Kind::kComputed, 0, width}};
     whole(work, rgb, width, line, may_be_outside, stats);
   } else {
-    // Methods whose coefficients are the RGB limit a line quicker than its colours can be looked up.
-    if (mixes_ && may_be_outside) stage_.limit(line, rgb, width, stats);
+    // Methods whose coefficients are the RGB clip a line quicker than its colours can be looked up.
+    if (mixes_ && may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
     const FoundRuns found = find_runs(rgb.rows, width, work.runs);
     stats.black += found.black;
     stats.constant += found.constant;
@@ -75,14 +75,14 @@ rows::Coefficients LineSolver::at(Work& work, std::size_t first) const {
 
 void LineSolver::whole(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
                        LineStats& stats) const {
-  if (may_be_outside) stage_.limit(line, rgb, width, stats);
+  if (may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
   if (!mixes_) rows::solve(kernels_, upsampler_, rgb.rows, at(work, 0), work.unsolved.data(), rgb.padded);
 }
 
 void LineSolver::by_runs(Work& work, const ColorLine& rgb, std::size_t width, int line,
                          LineStats& stats) const {
   if (table_->worth_while(*work.batch)) {
-    look_up(work, rgb, line, stats);
+    solve_by_table(work, rgb, line, stats);
   } else {
     for (const ColorRun& run : work.runs) {
       if (run.kind != ColorRun::Kind::kBlack) solve_run(work, rgb, run, line, stats);
@@ -95,7 +95,7 @@ void LineSolver::by_runs(Work& work, const ColorLine& rgb, std::size_t width, in
   if (out.scale != nullptr) std::fill(out.scale + width, out.scale + rgb.padded, 0.0F);
 }
 
-void LineSolver::look_up(Work& work, const ColorLine& rgb, int line, LineStats& stats) const {
+void LineSolver::solve_by_table(Work& work, const ColorLine& rgb, int line, LineStats& stats) const {
   rows::ColorTable::Batch& batch = *work.batch;
   const auto start = Clock::now();
   rows::ColorTable::clear(batch);

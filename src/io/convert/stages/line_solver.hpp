@@ -33,7 +33,7 @@ class LineSolver {
   /// Errors: kOutOfMemory.
   Result<Work> work(int width) const;
 
-  /// Coefficients of a settled line, in the slot's work space or the line itself.
+  /// Coefficients of a sanitized line, in the slot's work space or the line itself.
   LineCoefficients line(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
                         LineStats& stats) const;
 
@@ -41,7 +41,7 @@ class LineSolver {
   void whole(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
              LineStats& stats) const;
   void by_runs(Work& work, const ColorLine& rgb, std::size_t width, int line, LineStats& stats) const;
-  void look_up(Work& work, const ColorLine& rgb, int line, LineStats& stats) const;
+  void solve_by_table(Work& work, const ColorLine& rgb, int line, LineStats& stats) const;
   void solve_run(Work& work, const ColorLine& rgb, const ColorRun& run, int line, LineStats& stats) const;
   rows::Coefficients at(Work& work, std::size_t first) const;
   void fill(Work& work, const ColorRun& run) const;

@@ -38,8 +38,8 @@ int first_where(std::size_t width, Test test) {
 
 }  // namespace
 
-void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                      NonFinite policy, LineStats& stats) {
+void sanitize_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width,
+                        int line, NonFinite policy, LineStats& stats) {
   const kernels::RgbScan found = scan(kernels, rows, width);
   if (found.nonfinite == 0 && found.negative == 0 && found.maximum <= kLargestComponent) return;
   for (std::size_t x = 0; x < width; ++x) {
@@ -51,8 +51,8 @@ void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3],
   }
 }
 
-float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                   NegativeInput policy, LineStats& stats) {
+float sanitize_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
+                     NegativeInput policy, LineStats& stats) {
   const kernels::RgbScan found = scan(kernels, rows, width);
   stats.over_one += found.over_one;
   float largest = found.maximum;

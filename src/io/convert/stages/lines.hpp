@@ -24,12 +24,12 @@ inline constexpr float kLargestComponent = 0x1p124F;
 
 /// Counts and, when asked to, blackens the pixels of a line that are not finite, or beyond kLargestComponent.
 /// Rows are padded with zeros.
-void settle_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                      NonFinite policy, LineStats& stats);
+void sanitize_nonfinite(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width,
+                        int line, NonFinite policy, LineStats& stats);
 
 /// Counts pixels with a component below 0 and above 1, and clips the former when asked to. Returns the
 /// largest magnitude of a component.
-float settle_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
-                   NegativeInput policy, LineStats& stats);
+float sanitize_range(const kernels::KernelTable& kernels, float* const rows[3], std::size_t width, int line,
+                     NegativeInput policy, LineStats& stats);
 
 }  // namespace spectile::io

@@ -89,7 +89,7 @@ TEST_F(Mipmap, ThatDoNotFitIntoMemoryAreTheSame) {
   options.store = Store::kCoefficients;
   ASSERT_TRUE(upsample_image(in_, folder_ / "c.exr", options));
   ExpandImageOptions expand;
-  expand.pixel = PixelType::kFloat;
+  expand.pixel = SampleType::kFloat;
   expand.bands = *Bands::from_centres(std::vector<double>{400.625, 550.625, 699.375});
   ASSERT_TRUE(expand_image(folder_ / "c.exr", folder_ / "float.exr", expand));
   check_averages(levels, test::read_picture(folder_ / "float.exr"), 0);

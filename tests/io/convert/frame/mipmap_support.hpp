@@ -171,7 +171,7 @@ class Mipmap : public testing::Test {
     }
     const auto levels = read_levels(folder_ / "mip.exr", options.tile.value_or(std::array{64, 64}));
     EXPECT_TRUE(levels[0].planes == read_picture(folder_ / "plain.exr").planes);
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     options.compression = *Compression::parse("none");
     ASSERT_TRUE(run("float.exr", with(options, false)));
     check_averages(levels, read_picture(folder_ / "float.exr"), mixing);

@@ -23,9 +23,9 @@ TEST_F(Mipmap, LevelsAreAveragesOfSpectraForEveryMethodAndQuantity) {
   make(37, 23);
   for (const std::string& name : method_names()) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
-      for (const PixelType pixel : {PixelType::kHalf, PixelType::kFloat}) {
+      for (const SampleType pixel : {SampleType::kHalf, SampleType::kFloat}) {
         SCOPED_TRACE(name + " " + std::string(to_string(quantity)) +
-                     (pixel == PixelType::kHalf ? " half" : " float"));
+                     (pixel == SampleType::kHalf ? " half" : " float"));
         UpsampleImageOptions options;
         options.bands = *Bands::uniform(400, 700, 25);
         options.method = *parse_method(name);
@@ -48,7 +48,7 @@ TEST_F(Mipmap, SizesThatDoNotHalveAreCoveredExactly) {
       UpsampleImageOptions options;
       options.bands = *Bands::uniform(400, 700, 25);
       options.method = method;
-      options.pixel = PixelType::kFloat;
+      options.pixel = SampleType::kFloat;
       options.tile = {16, 32};
       check(converter(in_, options, &upsample_image), options, method == Method::kSigmoid ? 0 : kMixing);
     }
@@ -115,7 +115,7 @@ TEST_F(Mipmap, OfProjectedAndRelitImagesAreAveragesOfColours) {
   up.bands = *Bands::uniform(400, 700, 25);
   ASSERT_TRUE(upsample_image(in_, folder_ / "s.exr", up));
   for (const ColorTarget target : {ColorTarget::kSrgb, ColorTarget::kXyz, ColorTarget::kLuminance}) {
-    for (const PixelType pixel : {PixelType::kHalf, PixelType::kFloat}) {
+    for (const SampleType pixel : {SampleType::kHalf, SampleType::kFloat}) {
       ProjectImageOptions project;
       project.target = target;
       project.pixel = pixel;
@@ -137,7 +137,7 @@ TEST_F(Mipmap, WithARegionAreThoseOfThePartAlone) {
   options.bands = *Bands::uniform(400, 700, 25);
   options.masking = Masking::kFile;
   options.mask = folder_ / "mask.exr";
-  options.region = {6, 9, 60, 41};
+  options.region = {6, 9, 61, 42};
   check(converter(in_, options, &upsample_image), options, kMixing);
   Imf::TiledInputFile file((folder_ / "mip.exr").c_str());
   EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({6, 9}, {60, 41}));
@@ -153,7 +153,7 @@ TEST_F(Mipmap, WhatIsMaskedCountsAsBlack) {
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     UpsampleImageOptions options;
     options.method = method;
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     options.mipmap = true;
     const auto report = upsample_image(in_, folder_ / "out.exr", options);
     ASSERT_TRUE(report) << report.error().message;

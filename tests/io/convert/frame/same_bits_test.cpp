@@ -63,7 +63,7 @@ class SameBits : public testing::Test {
     up.compression = {CompressionKind::kNone, -1};
     ProjectImageOptions down;
     down.nonfinite = NonFinite::kZero;
-    down.pixel = PixelType::kFloat;
+    down.pixel = SampleType::kFloat;
     down.compression = up.compression;
     const Setting plain = {"scalar", 1, 1024};
     force(plain, up);

@@ -57,15 +57,9 @@ void add_image_options(Texts& texts, const Options& usual) {
   add_each<Options>(
       texts, usual,
       {{"pixel",
-        [&](Options& o) { o.pixel = o.pixel == PixelType::kHalf ? PixelType::kFloat : PixelType::kHalf; }},
-       {"region",
-        [](Options& o) {
-          o.region = std::array<int, 4>{1, 2, 3, 4};
-        }},
-       {"other region",
-        [](Options& o) {
-          o.region = std::array<int, 4>{12, 3, 4, 5};
-        }},
+        [&](Options& o) { o.pixel = o.pixel == SampleType::kHalf ? SampleType::kFloat : SampleType::kHalf; }},
+       {"region", [](Options& o) { o.region = PixelWindow::inclusive(1, 2, 3, 4); }},
+       {"other region", [](Options& o) { o.region = PixelWindow::inclusive(12, 3, 4, 5); }},
        {"nonfinite", [](Options& o) { o.nonfinite = NonFinite::kZero; }},
        {"tile",
         [](Options& o) {
@@ -151,7 +145,7 @@ TEST(Settings, DifferentOptionsGiveDifferentTexts) {
                                  {"seen by", [](auto& o) { o.seen_by = Observer::kCie1964; }},
                                  {"bradford", [](auto& o) { o.adaptation = Adaptation::kBradford; }},
                                  {"cat16", [](auto& o) { o.adaptation = Adaptation::kCat16; }},
-                                 {"way", [](auto& o) { o.way = Way::kSpectra; }}});
+                                 {"way", [](auto& o) { o.mode = RelightMode::kSpectra; }}});
 
   add_image_options(texts, ProjectImageOptions());
   add_each<ProjectImageOptions>(texts, {},

@@ -157,7 +157,7 @@ TEST_F(ExpandErrors, MissingChannelIsNamed) {
 TEST_F(ExpandErrors, ChannelThatIsNoCoefficientIsNamed) {
   test::Picture whole = good_;
   whole.add("spectile.c1", Imf::UINT, [](int, int) { return 1; });
-  expect_refused(whole, "\"spectile.c1\" holds whole numbers");
+  expect_refused(whole, "\"spectile.c1\" holds integers");
   test::Picture both = good_;
   both.add("S0.550nm", Imf::HALF, [](int, int) { return 1; });
   expect_refused(both, "holds spectral channels already (\"S0.550nm\")");
@@ -228,7 +228,7 @@ TEST_F(ExpandErrors, CoefficientsThatAreNotFiniteStopOrBecomeBlack) {
                                          std::pair(Method::kSmitsExact, Quantity::kReflectance)}) {
     const test::Picture whole = compact(test::options_of({method, quantity}));
     ExpandImageOptions expand;
-    expand.pixel = PixelType::kFloat;
+    expand.pixel = SampleType::kFloat;
     ASSERT_TRUE(expand_image(folder_ / "compact.exr", folder_ / "whole.exr", expand));
     test::Picture want = test::read_picture(folder_ / "whole.exr");
     test::Picture bad = whole;

@@ -64,13 +64,13 @@ TEST_P(Expand, GivesTheBitsOfUpsamplingDirectly) {
   for (const auto& [width, height] : {std::pair(67, 5), std::pair(1, 1), std::pair(130, 3)}) {
     UpsampleImageOptions options = test::options_of(GetParam());
     make(test::every_color(width, height), options);
-    for (const PixelType pixel : {PixelType::kHalf, PixelType::kFloat}) {
+    for (const SampleType pixel : {SampleType::kHalf, SampleType::kFloat}) {
       for (const auto& [threads, tile] : {std::pair(1, 64), std::pair(2, 65536), std::pair(3, 128)}) {
         options.pixel = pixel;
         options.threads = threads;
         options.tile_lanes = static_cast<std::size_t>(tile);
         expect_same(options, fmt::format("{} x {}, {}, {} threads, tiles of {}", width, height,
-                                         pixel == PixelType::kHalf ? "half" : "float", threads, tile));
+                                         pixel == SampleType::kHalf ? "half" : "float", threads, tile));
       }
     }
   }
@@ -86,7 +86,7 @@ TEST_P(Expand, GivesTheBitsForWideColoursAndKeptNegatives) {
   for (const NegativeInput negative : {NegativeInput::kClip, NegativeInput::kKeep}) {
     options.negative = negative;
     make(picture, options);
-    for (const PixelType pixel : {PixelType::kHalf, PixelType::kFloat}) {
+    for (const SampleType pixel : {SampleType::kHalf, SampleType::kFloat}) {
       options.pixel = pixel;
       expect_same(options, negative == NegativeInput::kKeep ? "kept" : "clipped");
     }
@@ -102,7 +102,7 @@ TEST_P(Expand, PixelsLimitedInHalfAreThoseWithALargerSampleInFloat) {
   make(picture, options);
   ExpandImageOptions expand;
   const auto half = expand_image(compact_, folder_ / "half.exr", expand);
-  expand.pixel = PixelType::kFloat;
+  expand.pixel = SampleType::kFloat;
   const auto full = expand_image(compact_, out_, expand);
   ASSERT_TRUE(half);
   ASSERT_TRUE(full);
@@ -188,7 +188,7 @@ TEST_P(ExpandSigmoids, ForOtherBandsFollowTheRecordedConvention) {
   make(test::every_color(67, 5), options);
   ExpandImageOptions expand;
   expand.bands = *Bands::parse("380,405,431.5,550,640.25,695,720,790");
-  expand.pixel = PixelType::kFloat;
+  expand.pixel = SampleType::kFloat;
   const auto report = expand_image(compact_, out_, expand);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_THAT(report->notes, testing::ElementsAre(HasSubstr("beyond 409.375 to 690.625 nm")));

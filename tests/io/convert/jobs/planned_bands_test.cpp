@@ -36,7 +36,7 @@ class PlannedBandsImages : public testing::Test {
     test::Picture picture = test::every_color(70, 33);
     test::write_scanlines(in_, picture);
     options_.bands = *planned_bands(plan());
-    options_.pixel = PixelType::kFloat;
+    options_.pixel = SampleType::kFloat;
   }
 
   /// Changes an attribute of a file's header and copies its pixels.
@@ -89,7 +89,7 @@ TEST_F(PlannedBandsImages, HaveAChannelForEachWavelengthAndGiveTheirColoursBack)
     ASSERT_TRUE(info && info->bands);
     EXPECT_EQ(*info->bands, options_.bands);
     ProjectImageOptions project;
-    project.pixel = PixelType::kFloat;
+    project.pixel = SampleType::kFloat;
     const auto projected = project_image(spectral_, out_, project);
     ASSERT_TRUE(projected) << projected.error().message;
     if (made->out_of_gamut_pixels == 0) {
@@ -104,7 +104,7 @@ TEST_F(PlannedBandsImages, AreSeenUnderTheirPlansLightsAndNoOthers) {
   ASSERT_TRUE(upsample_image(in_, spectral_, options_));
   ProjectImageOptions project;
   project.light = *illuminant("FL11");
-  project.pixel = PixelType::kFloat;
+  project.pixel = SampleType::kFloat;
   ASSERT_TRUE(project_image(spectral_, out_, project));
   RelightImageOptions relight({"FL11", *illuminant("FL11")});
   static_cast<MethodOptions&>(relight) = options_;
@@ -127,7 +127,7 @@ TEST_F(PlannedBandsImages, ExpandFromCoefficientsToTheSameBits) {
     ASSERT_TRUE(upsample_image(in_, compact, options_));
     options_.store = Store::kSpectra;
     ExpandImageOptions expand;
-    expand.pixel = PixelType::kFloat;
+    expand.pixel = SampleType::kFloat;
     const auto expanded = expand_image(compact, out_, expand);
     ASSERT_TRUE(expanded) << expanded.error().message;
     EXPECT_TRUE(test::read_picture(out_).planes == test::read_picture(spectral_).planes);
@@ -150,7 +150,7 @@ TEST_F(PlannedBandsImages, AreTexturesWithTheirPlan) {
   ASSERT_TRUE(texture) << texture.error().message;
   EXPECT_EQ(texture->bands(), options_.bands);
   SampledSpectra batch = *SampledSpectra::create(texture->bands(), 70);
-  ASSERT_TRUE(texture->evaluate({0, 5, 70, 1}, batch.span()));
+  ASSERT_TRUE(texture->evaluate({0, 5, 70, 6}, batch.span()));
   ColorLanes xyz = *ColorLanes::create(70);
   ASSERT_TRUE(
       project(*Projector::reflective(texture->bands(), *illuminant("FL11")), batch.view(), xyz.span()));

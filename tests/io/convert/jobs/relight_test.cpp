@@ -41,7 +41,7 @@ class RelitImages : public testing::Test {
 
 RelightImageOptions under(const char* light) {
   RelightImageOptions options({light, *illuminant(light)});
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   return options;
 }
 
@@ -51,16 +51,16 @@ TEST_F(RelitImages, AreWhatUpsamplingAndProjectingGive) {
     RelightImageOptions options = under("FL11");
     options.method = method;
     const test::Picture direct = relit(input, options);
-    options.way = Way::kSpectra;
+    options.mode = RelightMode::kSpectra;
     const test::Picture by_spectra = relit(input, options);
 
     UpsampleImageOptions up;
     up.method = method;
-    up.pixel = PixelType::kFloat;
+    up.pixel = SampleType::kFloat;
     up.masking = Masking::kNone;  // relighting keeps colours where alpha is 0
     ASSERT_TRUE(upsample_image(input, folder_ / "spectral.exr", up));
     ProjectImageOptions down;
-    down.pixel = PixelType::kFloat;
+    down.pixel = SampleType::kFloat;
     down.light = *illuminant("FL11");
     ASSERT_TRUE(project_image(folder_ / "spectral.exr", folder_ / "projected.exr", down));
     const test::Picture projected = test::read_picture(folder_ / "projected.exr");

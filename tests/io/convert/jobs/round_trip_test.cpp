@@ -69,7 +69,7 @@ Expected expect(const test::Picture& picture, const Bands& bands, bool half_samp
 }
 
 /// Converts there and back, compares with the oracle, and records what Smits itself loses.
-void check_round_trip(PixelType pixel) {
+void check_round_trip(SampleType pixel) {
   const std::string input = (test::shared_images("rgb") / "StillLife.exr").string();
   const test::TempFolder folder;
   UpsampleImageOptions up;
@@ -80,7 +80,7 @@ void check_round_trip(PixelType pixel) {
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(made->clamped_pixels, 0U);
   ProjectImageOptions down;
-  down.pixel = PixelType::kFloat;
+  down.pixel = SampleType::kFloat;
   down.compression = up.compression;
   const auto back = project_image(folder / "spectral.exr", folder / "back.exr", down);
   ASSERT_TRUE(back) << back.error().message;
@@ -88,7 +88,7 @@ void check_round_trip(PixelType pixel) {
   const test::Picture before = test::read_picture(input);
   const test::Picture after = test::read_picture(folder / "back.exr");
   ASSERT_EQ(before.pixels(), after.pixels());
-  const Expected expected = expect(before, up.bands, pixel == PixelType::kHalf);
+  const Expected expected = expect(before, up.bands, pixel == SampleType::kHalf);
   std::uint64_t outside = 0;
   double worst = 0;  // difference over its bound
   double worst_relative = 0;
@@ -125,12 +125,12 @@ void check_round_trip(PixelType pixel) {
 
 TEST(RoundTrip, FloatSpectraOfAPhotographAgreeWithTheOracle) {
   SPECTILE_NEEDS_IMAGES("rgb");
-  check_round_trip(PixelType::kFloat);
+  check_round_trip(SampleType::kFloat);
 }
 
 TEST(RoundTrip, HalfSpectraOfAPhotographAgreeWithTheOracle) {
   SPECTILE_NEEDS_IMAGES("rgb");
-  check_round_trip(PixelType::kHalf);
+  check_round_trip(SampleType::kHalf);
 }
 
 }  // namespace

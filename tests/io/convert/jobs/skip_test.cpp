@@ -136,7 +136,7 @@ TEST_F(Skipping, EveryMethodQuantityAndPolicyGivesTheSameBytes) {
           options.method = *parse_method(method);
           options.quantity = quantity;
           options.out_of_gamut = policy;
-          options.pixel = policy == GamutPolicy::kKeep ? PixelType::kFloat : PixelType::kHalf;
+          options.pixel = policy == GamutPolicy::kKeep ? SampleType::kFloat : SampleType::kHalf;
           options.bands = *Bands::uniform(400, 700, 25);
           check(picture, options);
         }

@@ -32,11 +32,12 @@ test::Picture flat(const Triple& color) {
 
 class ColorSpaces : public testing::Test {
  protected:
-  Result<ImageReport> convert(test::Picture picture, Quantity quantity, NegativeInput negative = NegativeInput::kGamut,
+  Result<ImageReport> convert(test::Picture picture, Quantity quantity,
+                              NegativeInput negative = NegativeInput::kGamut,
                               std::optional<GamutPolicy> gamut = std::nullopt) {
     test::write_scanlines(folder_ / "in.exr", picture);
     UpsampleImageOptions options;
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     options.quantity = quantity;
     options.negative = negative;
     options.out_of_gamut = gamut;

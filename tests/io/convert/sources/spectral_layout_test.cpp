@@ -169,7 +169,7 @@ TEST(SpectralLayoutFiles, PublishedColorChartProjectsToItsOwnPreview) {
   const std::string input = (test::shared_images("spectral") / "Macbeth.exr").string();
   const test::TempFolder folder;
   ProjectImageOptions options;
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   const auto report = project_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->quantity, Quantity::kReflectance);
@@ -200,7 +200,7 @@ TEST(SpectralLayoutFiles, PublishedDaylightHasItsChromaticity) {
   const std::string input = (test::shared_images("spectral") / "D65.exr").string();
   const test::TempFolder folder;
   ProjectImageOptions options;
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   options.target = ColorTarget::kXyz;
   const auto report = project_image(input, folder / "out.exr", options);
   ASSERT_TRUE(report) << report.error().message;

@@ -45,7 +45,7 @@ class SpectralSourceImages : public testing::Test {
 
   static ProjectImageOptions float_options() {
     ProjectImageOptions options;
-    options.pixel = PixelType::kFloat;
+    options.pixel = SampleType::kFloat;
     return options;
   }
 

@@ -69,7 +69,7 @@ TEST(InvalidPixels, StopNamesTheFirstAndTheNumberWhateverTheThreads) {
 TEST(InvalidPixels, ZeroMakesThemBlackAndCountsThem) {
   const test::TempFolder folder;
   for (const auto type : {Imf::HALF, Imf::FLOAT}) {
-    for (const auto pixel : {PixelType::kHalf, PixelType::kFloat}) {
+    for (const auto pixel : {SampleType::kHalf, SampleType::kFloat}) {
       UpsampleImageOptions options;
       options.nonfinite = NonFinite::kZero;
       options.pixel = pixel;
@@ -176,7 +176,7 @@ TEST(InvalidPixels, SamplesBeyondHalfAreLimitedAndCounted) {
     EXPECT_EQ(out.at(name, 2, 0), 65504.0) << name;
     EXPECT_GT(out.at(name, 3, 0), 5e4) << name;
   }
-  options.pixel = PixelType::kFloat;
+  options.pixel = SampleType::kFloat;
   const auto whole = upsample_image(input, folder / "out.exr", options);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->clamped_pixels, 0U);

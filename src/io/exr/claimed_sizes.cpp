@@ -1,7 +1,5 @@
 // Sizes that a file's headers claim, checked before OpenEXR believes them.
 // Source of the layout: OpenEXR, File Layout.
-#include "src/io/exr/exr_sizes.hpp"
-
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +9,7 @@
 #include <optional>
 
 #include "src/base/errors.hpp"
+#include "src/io/exr/exr_input.hpp"
 
 namespace spectile::io {
 namespace {
