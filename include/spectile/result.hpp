@@ -1,9 +1,9 @@
 // Result<T>: a value, or an error with a code and one sentence that says what is wrong.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace spectile {
 
@@ -28,23 +28,34 @@ struct Error {
   std::string message;
 };
 
-/// A value of type T, or an Error. Test with `if (result)`, then `*result` or `result.error()`.
+namespace detail {
+/// Prints the error's message and aborts: a Result's value was taken without a look at its error.
+[[noreturn]] void value_of_error(const Error& error) noexcept;
+}  // namespace detail
+
+/// A value of type T, or an Error. Test with `if (result)`, then `*result` or `result.error()`. Taking the
+/// value of an error prints the error's message and aborts.
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+  Result(T value) : value_(std::move(value)) {}
+  Result(Error error) : error_(std::move(error)) {}
 
-  explicit operator bool() const noexcept { return state_.index() == 0; }
-  T& operator*() & { return std::get<0>(state_); }
-  const T& operator*() const& { return std::get<0>(state_); }
-  T&& operator*() && { return std::get<0>(std::move(state_)); }
-  T* operator->() { return &std::get<0>(state_); }
-  const T* operator->() const { return &std::get<0>(state_); }
-  const Error& error() const { return std::get<1>(state_); }
+  explicit operator bool() const noexcept { return value_.has_value(); }
+  T& operator*() & { return checked(), *value_; }
+  const T& operator*() const& { return checked(), *value_; }
+  T&& operator*() && { return checked(), *std::move(value_); }
+  T* operator->() { return checked(), &*value_; }
+  const T* operator->() const { return checked(), &*value_; }
+  /// Undefined where there is a value.
+  const Error& error() const noexcept { return error_; }
 
  private:
-  std::variant<T, Error> state_;
+  void checked() const noexcept {
+    if (!value_.has_value()) detail::value_of_error(error_);
+  }
+  std::optional<T> value_;
+  Error error_;
 };
 
 /// Success, or an Error.
