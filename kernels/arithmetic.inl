@@ -1,7 +1,7 @@
 // Element-wise arithmetic over whole batches, and reductions of a lane over its bands.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

@@ -1,18 +1,12 @@
 // Weighted sums over bands (XYZ, luminance, averages) and 3 x 3 colour transforms.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/abi/color.hpp"
+#include "kernels/simd/runs.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {
-
-/// Calls run(first, end) for each run of a sum over bands.
-template <class Run>
-inline void for_runs(std::size_t bands, Run run) noexcept {
-  for (std::size_t first = 0; first < bands; first += kSumRun) {
-    run(first, bands - first < kSumRun ? bands : first + kSumRun);
-  }
-}
 
 void weighted_sum(float* y, const float* spectra, const float* weights, std::size_t bands,
                   std::size_t blocks) noexcept {
@@ -36,9 +30,9 @@ void weighted_sum(float* y, const float* spectra, const float* weights, std::siz
   }
 }
 
-void project(float* x, float* y, float* z, const float* spectra, const float* weights, std::size_t bands,
+void project(float* const dst[3], const float* spectra, const float* weights, std::size_t bands,
              std::size_t blocks) noexcept {
-  float* const out[3] = {x, y, z};
+  float* const out[3] = {dst[0], dst[1], dst[2]};
   for (std::size_t block = 0; block < blocks; ++block, spectra += bands * kLanes) {
     for (std::size_t lane = 0; lane < kLanes; lane += kGroup * kWidth) {
       F32 sum[3][kGroup];

@@ -1,8 +1,9 @@
 // Conversion between half and float, and the scan that finds what an RGB row holds.
 #pragma once
 
-#include "kernels/simd.hpp"
-#include "kernels/simd_convert.hpp"
+#include "kernels/abi/color.hpp"
+#include "kernels/simd/convert.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

@@ -41,10 +41,10 @@ inline constexpr float kPlanckSeries[kPlanckTerms] = {1.0F / 2,   1.0F / 6,   1.
 // Exponents from here on give 0: 2^-252 is below every float, whatever finite factor it has.
 inline constexpr float kPlanckLimit = 252.0F;
 inline constexpr float kPlanckUnit = 1024.0F;  // nm
-// Longest wavelength in that unit: far beyond where there is no light left, and its quotients are no zeros.
+// Longest wavelength in that unit: far beyond where there is no light left, and divisions by it are no zeros.
 inline constexpr float kPlanckLongest = 0x1p90F;
 
-/// What an exponent y means for the special values of the base, as C's pow defines them (C17 7.12.7.4,
+/// An exponent y and its results for special values of the base, as C's pow defines them (C17 7.12.7.4,
 /// F.10.4.4).
 struct PowExponent {
   double factor;      ///< y, with infinities replaced by a finite number beyond every range

@@ -1,9 +1,9 @@
-// Film contributions to their pixels: placing samples, and adding to the limbs of exact sums.
+// Placing film samples in pixels, and adding their contributions to the limbs of exact sums.
 #pragma once
 
 #include "kernels/film_weigh.inl"
-#include "kernels/simd.hpp"
-#include "kernels/simd_quads.hpp"
+#include "kernels/simd/quads.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {
@@ -11,9 +11,10 @@ namespace {
 /// Entries ahead of the one being added whose pixels are fetched: a few hundred cycles of work.
 inline constexpr std::size_t kFilmAhead = 16;
 
-void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t counts[kFilmReasons],
-                const FilmWindow& window, const float* x, const float* y, const float* weight,
-                const std::int32_t* reasons, std::size_t n) noexcept {
+void film_place(const FilmPlaces& out, const FilmWindow& given, const FilmPositions& samples) noexcept {
+  const FilmWindow window = given;  // copies that stores leave alone
+  const auto [x, y, weight, reasons, n] = samples;
+  const auto [address, tiles, counts] = out;
   I32 lowest(tiles[0]);
   I32 highest(tiles[1]);
   const F32 zero(0.0F);
@@ -44,9 +45,9 @@ void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t coun
     for (std::size_t lane = i; lane < i + lanes; ++lane) {
       const float lane_weight = weight == nullptr ? 1.0F : weight[lane];
       Faults faults;
-      faults.look_at(x[lane]);
-      faults.look_at(y[lane]);
-      faults.look_at(lane_weight);
+      faults.scan(x[lane]);
+      faults.scan(y[lane]);
+      faults.scan(lane_weight);
       faults.negative = lane_weight < 0.0F && !window.negative_weights;
       std::int32_t reason = faults.reason();
       const bool within =
@@ -73,26 +74,25 @@ void film_place(std::int32_t* address, std::int32_t tiles[2], std::uint64_t coun
   }
 }
 
-/// Calls add(sample, factor, pixel's place) for each entry; `per_pixel` limbs lie in a pixel. A run within
-/// one tile need not look for it again.
+/// Calls add(sample, factor, pixel's place) for each entry. A run within one tile need not find it again.
 template <class Add>
-inline void for_entries(std::int64_t* const* tiles, std::size_t offset, std::size_t per_pixel,
-                        const FilmEntries& entries, Add add) noexcept {
+inline void for_entries(const FilmSums& to, const FilmEntries& entries, Add add) noexcept {
+  const FilmSums sums = to;  // a copy that additions leave alone
   const auto call = [&](std::size_t i, std::int64_t* pixel) {
     add(entries.sample == nullptr ? i : entries.sample[i],
         entries.factor == nullptr ? 1.0F : entries.factor[i], pixel);
   };
   if (entries.tile >= 0) {
-    std::int64_t* const tile = tiles[entries.tile] + offset;
+    std::int64_t* const tile = sums.tiles[entries.tile] + sums.offset;
     for (std::size_t i = 0; i < entries.count; ++i) {
       if (entries.address[i] < 0) continue;
-      call(i, tile + (static_cast<std::size_t>(entries.address[i]) % kFilmTilePixels) * per_pixel);
+      call(i, tile + (static_cast<std::size_t>(entries.address[i]) % kFilmTilePixels) * sums.limbs);
     }
     return;
   }
-  const auto place = [&](std::int32_t address) {
+  const auto place = [&sums](std::int32_t address) {
     const auto at = static_cast<std::size_t>(address);
-    return tiles[at / kFilmTilePixels] + offset + (at % kFilmTilePixels) * per_pixel;
+    return sums.tiles[at / kFilmTilePixels] + sums.offset + (at % kFilmTilePixels) * sums.limbs;
   };
   for (std::size_t i = 0; i < entries.count; ++i) {
     if (i + kFilmAhead < entries.count && entries.address[i + kFilmAhead] >= 0) {
@@ -102,13 +102,13 @@ inline void for_entries(std::int64_t* const* tiles, std::size_t offset, std::siz
   }
 }
 
-void film_add(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
-              const FilmEntries& entries, const float* quads, std::size_t count, std::size_t limbs) noexcept {
+void film_add(const FilmSums& to, const FilmGrid& grid, const FilmEntries& entries, const float* quads,
+              std::size_t count) noexcept {
   const QuadGrid magic(grid);
   if (entries.tile >= 0 && entries.sample == nullptr && entries.factor == nullptr && count == 1) {
     // As samples come from a renderer's tile: two side by side.
-    std::int64_t* const tile = tiles[entries.tile] + offset;
-    const auto place = [&](std::int32_t address) {
+    std::int64_t* const tile = to.tiles[entries.tile] + to.offset;
+    const auto place = [tile, limbs = to.limbs](std::int32_t address) {
       return tile + (static_cast<std::size_t>(address) % kFilmTilePixels) * limbs;
     };
     std::size_t i = 0;
@@ -128,36 +128,37 @@ void film_add(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& gr
     return;
   }
   if (entries.factor == nullptr && count == 1) {
-    for_entries(tiles, offset, limbs, entries, [&](std::size_t sample, float, std::int64_t* pixel) {
+    for_entries(to, entries, [&](std::size_t sample, float, std::int64_t* pixel) {
       add_quad(pixel, quad_load(quads + 4 * sample), magic);
     });
     return;
   }
-  for_entries(tiles, offset, limbs, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+  for_entries(to, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
     const Quad factors = quad_all(factor);
     for (std::size_t q = 0; q < count; ++q) {
-      add_quad(pixel + 8 * q, quad_multiply(quad_load(quads + 4 * (sample * count + q)), factors), magic);
+      add_quad(pixel + kFilmQuadLimbs * q,
+               quad_multiply(quad_load(quads + 4 * (sample * count + q)), factors), magic);
     }
   });
 }
 
-void film_add_hits(std::int64_t* const* tiles, std::size_t offset, const FilmGrid& grid,
-                   const FilmEntries& entries, const std::int32_t* band, const float* hits, std::size_t count,
-                   std::size_t n, std::size_t bands) noexcept {
+void film_add_hits(const FilmSums& to, const FilmGrid& grid, const FilmEntries& entries,
+                   const FilmHitRows& hits) noexcept {
+  const FilmHitRows rows = hits;
   const Double2 coarse = double2_load(grid.coarse);
   const Double2 rest = double2_load(grid.rest);
-  for_entries(tiles, offset, 4 * bands, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t at = k * n + sample;
-      if (band[at] < 0) continue;
-      std::int64_t* const limbs = pixel + 4 * static_cast<std::size_t>(band[at]);
-      const Quad hit = quad_multiply(pair_load(hits + 2 * at), quad_all(factor));
-      add_pair(limbs, limbs + 2, widen_first(hit), coarse, rest);
+  for_entries(to, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      const std::size_t at = k * rows.n + sample;
+      if (rows.band[at] < 0) continue;
+      std::int64_t* const limbs = pixel + kFilmHitLimbs * static_cast<std::size_t>(rows.band[at]);
+      const Quad hit = quad_multiply(pair_load(rows.values + 2 * at), quad_all(factor));
+      add_pair(limbs, limbs + kFilmHitRest, widen_first(hit), coarse, rest);
     }
   });
 }
 
-/// Adds v to a limb, of which `magic` is 1.5 * 2^52 steps. Returns what is left of it.
+/// Adds v to a limb, of which `magic` is 1.5 * 2^52 steps. Returns the rest.
 inline double add_limb(std::int64_t& limb, double v, double magic) noexcept {
   const double sum = v + magic;
   std::int64_t bits = 0;
@@ -168,22 +169,23 @@ inline double add_limb(std::int64_t& limb, double v, double magic) noexcept {
   return v - (sum - magic);
 }
 
-void film_add_moments(std::int64_t* const* tiles, std::size_t offset, const FilmMomentGrid& grid,
-                      const FilmEntries& entries, const float* quads) noexcept {
-  for_entries(tiles, offset, 8, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
-    const auto w = static_cast<double>(quads[4 * sample + 3] * factor);
+void film_add_moments(const FilmSums& to, const FilmMomentGrid& grid, const FilmEntries& entries,
+                      const float* quads) noexcept {
+  for_entries(to, entries, [&](std::size_t sample, float factor, std::int64_t* pixel) {
+    const auto w = static_cast<double>(quads[4 * sample + kFilmQuadWeight] * factor);
     const auto y = static_cast<double>(quads[4 * sample + 1] * factor);
     double left = w == 0.0 ? 0.0 : y * (y / w);
-    for (std::size_t k = 0; k < 4; ++k) left = add_limb(pixel[k], left, grid.luminance[k]);
+    for (std::size_t k = 0; k < kFilmSquareLimbs; ++k) left = add_limb(pixel[k], left, grid.luminance[k]);
     left = w * w;
-    for (std::size_t k = 0; k < 2; ++k) left = add_limb(pixel[4 + k], left, grid.weight[k]);
-    add_limb(pixel[7], left, grid.weight[2]);
-    ++pixel[6];
+    for (std::size_t k = 0; k < kFilmWeightSquareLimbs; ++k) {
+      left = add_limb(pixel[kFilmWeightSquare[k]], left, grid.weight[k]);
+    }
+    ++pixel[kFilmMomentCount];
   });
 }
 
-void film_count(std::int64_t* const* tiles, std::size_t offset, const FilmEntries& entries) noexcept {
-  for_entries(tiles, offset, 1, entries, [](std::size_t, float, std::int64_t* pixel) { ++*pixel; });
+void film_count(const FilmSums& to, const FilmEntries& entries) noexcept {
+  for_entries(to, entries, [](std::size_t, float, std::int64_t* pixel) { ++*pixel; });
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Colours outside a cube moved onto it along the line to their grey.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/abi/color.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

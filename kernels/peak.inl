@@ -1,7 +1,8 @@
 // The machine's own limits with this instruction set's vectors: nothing but loads, stores, arithmetic.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/abi/arithmetic.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

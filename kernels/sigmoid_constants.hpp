@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "kernels/abi.hpp"
+#include "kernels/abi/upsampling.hpp"
 
 namespace spectile::kernels {
 

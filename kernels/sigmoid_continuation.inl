@@ -1,26 +1,27 @@
-// The way from a colour's grey to the colour: how much of it sigmoids have, and the coefficients there.
+// Continuation toward the grey axis: the part of the line from a colour's grey to the colour that sigmoids
+// cover, and the coefficients there.
 #pragma once
 
-#include "kernels/sigmoid_search.inl"
+#include "kernels/sigmoid_newton.inl"
 
 namespace spectile::kernels {
 namespace {
 
-/// A line of colours from a grey, and how near its places must be met.
-struct Way {
+/// A line of colours from a grey, and the tolerances at its points.
+struct GreyLine {
   F32 grey;
-  F32 way[3];
+  F32 direction[3];
   F32 near, met, steep;
   F32 shortest, damped, tries;  // see ContinuationEffort
 };
 
-inline void goal_at(const Way& line, F32 part, F32 goal[3]) noexcept {
-  for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(part, line.way[k], line.grey);
+inline void goal_at(const GreyLine& line, F32 part, F32 goal[3]) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(part, line.direction[k], line.grey);
 }
 
-/// The part of the line that is reached from the grey's coefficients c; c becomes those there. A lane that is
-/// done stays as it is, so that no lane depends on its neighbours.
-inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Mask active) noexcept {
+/// The part of the line that is solved, step by step from the grey's coefficients c; c becomes those there. A
+/// lane that is done stays as it is, so that no lane depends on its neighbours.
+inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& table, Mask active) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
   const F32 infinity(__builtin_inff());
@@ -37,11 +38,11 @@ inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Ma
   for (int i = 0; i < kContinuationSteps && lane_bits(active) != 0; ++i) {
     Coefficients trial;
     for (std::size_t k = 0; k < 3; ++k) trial.c[k] = base.c[k] + length * step.c[k];
-    const SigmoidSums sums = sums_of(trial, table);
+    const SigmoidSums sums = band_sums(trial, table);
     F32 goal[3];
     goal_at(line, next, goal);
     Residual left = residual(sums, goal);
-    const Mask usable = length_of(trial) <= line.steep;
+    const Mask usable = magnitude_sum(trial) <= line.steep;
     const Mask end = next == one;
     const Mask there = active & usable & (left.size <= xsimd::select(end, line.met, line.near));
     const Mask keep = there & (~end | (left.size < best));
@@ -76,7 +77,7 @@ inline F32 reach(Coefficients& c, const Way& line, const SigmoidTable& table, Ma
   return part;
 }
 
-void sigmoid_continuation(float* const c[3], float* reached, const float* const rgb[3],
+void sigmoid_continuation(float* const c[3], float* part, const float* const rgb[3],
                           const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
   const F32 zero(0.0F);
   const F32 half(0.5F);
@@ -90,31 +91,31 @@ void sigmoid_continuation(float* const c[3], float* reached, const float* const 
     const Mask bright = y > half;
     const F32 level = xsimd::select(bright, one - y, y);
     const Mask lit = finite & (level >= F32(kContinuationBlack));
-    Way line;
+    GreyLine line;
     line.grey = xsimd::select(lit, level, half);
     for (std::size_t k = 0; k < 3; ++k) {
-      line.way[k] = xsimd::select(bright, one - v[k], v[k]) - line.grey;
+      line.direction[k] = xsimd::select(bright, one - v[k], v[k]) - line.grey;
     }
     line.near = xsimd::max(F32(kSigmoidRounding), line.grey * F32(kContinuationNear));
     line.met =
         xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), line.grey * F32(kSigmoidMet)));
     Mask inside = finite;
     for (const F32& value : v) inside = inside & (value >= zero) & (value <= one);
-    const auto effort = [inside](float patient, float brief) {
-      return xsimd::select(inside, F32(patient), F32(brief));
+    const auto effort = [inside](float within, float beyond) {
+      return xsimd::select(inside, F32(within), F32(beyond));
     };
     line.shortest = effort(kContinuationInside.shortest, kContinuationOutside.shortest);
     line.damped = effort(kContinuationInside.damped, kContinuationOutside.damped);
     line.tries = effort(kContinuationInside.tries, kContinuationOutside.tries);
     line.steep = F32(kSigmoidSteep) / xsimd::sqrt(line.grey);
     Coefficients a = {{zero, zero, (line.grey - half) / xsimd::sqrt(line.grey * (one - line.grey))}};
-    const F32 part = reach(a, line, table, lit);
+    const F32 solved = follow(a, line, table, lit);
     a.c[2] = xsimd::select(lit, a.c[2], F32(-kSigmoidFar));
     for (std::size_t k = 0; k < 3; ++k) {
       const F32 turned = xsimd::select(bright, a.c[k] * F32(-1.0F), a.c[k]);
       store(c[k] + at, xsimd::select(finite, turned, F32(__builtin_nanf(""))));
     }
-    store(reached + at, xsimd::select(finite, part, one));
+    store(part + at, xsimd::select(finite, solved, one));
   }
 }
 

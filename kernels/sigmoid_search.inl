@@ -1,138 +1,10 @@
 // The search for the sigmoid that has a colour: an expansion around the nearest node, then Newton's method.
 #pragma once
 
-#include "kernels/sigmoid.inl"
-#include "kernels/simd_tables.hpp"
+#include "kernels/sigmoid_newton.inl"
 
 namespace spectile::kernels {
 namespace {
-
-/// Sums over the bands and their derivatives by the coefficients.
-struct SigmoidSums {
-  F32 f[3];
-  F32 j[9];
-};
-
-inline SigmoidSums zero_sums() noexcept {
-  SigmoidSums sums;
-  for (auto& v : sums.f) v = F32(0.0F);
-  for (auto& v : sums.j) v = F32(0.0F);
-  return sums;
-}
-
-inline void add_slopes(SigmoidSums& sums, const SigmoidPoint& p, const float* row) noexcept {
-  const F32 slope = (p.root * p.root) * p.root;
-  for (std::size_t i = 0; i < 9; ++i) sums.j[i] = fused(slope, F32(row[i]), sums.j[i]);
-}
-
-/// Sums over all bands, run by run, and their derivatives.
-inline SigmoidSums sums_of(const Coefficients& a, const SigmoidTable& table) noexcept {
-  SigmoidSums sums = zero_sums();
-  for_runs(table.bands, [&](std::size_t first, std::size_t end) {
-    F32 run[3] = {F32(0.0F), F32(0.0F), F32(0.0F)};
-    for (std::size_t b = first; b < end; ++b) {
-      const float* row = table.rows + b * kSigmoidRow;
-      const SigmoidPoint p = sigmoid_point(a, F32(row[kSigmoidLambda]));
-      for (std::size_t k = 0; k < 3; ++k) run[k] = fused(F32(table.weights[4 * b + k]), p.sample, run[k]);
-      add_slopes(sums, p, row);
-    }
-    for (std::size_t k = 0; k < 3; ++k) sums.f[k] = sums.f[k] + run[k];
-  });
-  return sums;
-}
-
-/// What is left of the target, and its largest magnitude.
-struct Residual {
-  F32 r[3];
-  F32 size;
-};
-
-inline Residual residual(const SigmoidSums& sums, const F32 target[3]) noexcept {
-  Residual out;
-  for (std::size_t k = 0; k < 3; ++k) out.r[k] = target[k] - sums.f[k];
-  const F32 a = xsimd::abs(out.r[0]);
-  const F32 b = xsimd::abs(out.r[1]);
-  const F32 c = xsimd::abs(out.r[2]);
-  const F32 first = xsimd::select(a > b, a, b);
-  out.size = xsimd::select(first > c, first, c);
-  return out;
-}
-
-/// Newton's step, by Cramer's rule; zero where it is not finite.
-inline Coefficients newton_step(const SigmoidSums& sums, const Residual& left) noexcept {
-  const F32* const a = sums.j;
-  const F32* const b = sums.j + 3;
-  const F32* const c = sums.j + 6;
-  const auto cross = [](const F32* u, const F32* v, F32* out) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t m = (i + 1) % 3;
-      const std::size_t n = (i + 2) % 3;
-      out[i] = fused_minus(u[n], v[m], u[m] * v[n]);
-    }
-  };
-  F32 bc[3];
-  F32 ca[3];
-  F32 ab[3];
-  cross(b, c, bc);
-  cross(c, a, ca);
-  cross(a, b, ab);
-  const F32 determinant = fused(a[2], bc[2], fused(a[1], bc[1], a[0] * bc[0]));
-  const F32 inverse = F32(1.0F) / determinant;
-  Coefficients step;
-  for (std::size_t i = 0; i < 3; ++i) {
-    step.c[i] = fused(left.r[2], ab[i], fused(left.r[1], ca[i], left.r[0] * bc[i])) * inverse;
-  }
-  const F32 far(kSigmoidFar);
-  const Mask finite =
-      (xsimd::abs(step.c[0]) < far) & (xsimd::abs(step.c[1]) < far) & (xsimd::abs(step.c[2]) < far);
-  for (auto& v : step.c) v = xsimd::select(finite, v, F32(0.0F));
-  return step;
-}
-
-/// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
-inline F32 length_of(const Coefficients& a) noexcept {
-  return (xsimd::abs(a.c[0]) + xsimd::abs(a.c[1])) + xsimd::abs(a.c[2]);
-}
-inline Mask is_last(const Residual& left, const Coefficients& step, F32 close) noexcept {
-  // A step of no length stands for one that was not finite.
-  const F32 length = length_of(step);
-  return (left.size * length <= close) & (left.size <= F32(kSigmoidNear)) & (length > F32(0.0F));
-}
-
-/// Start coefficients for colours in the dark half of the cube: the expansion around the nearest node.
-inline Coefficients start(const F32 v[3], F32 z, const SigmoidTable& table) noexcept {
-  const Mask first = (v[0] >= v[1]) & (v[0] >= v[2]);
-  const Mask second = v[1] >= v[2];
-  const F32 next = xsimd::select(first, v[1], xsimd::select(second, v[2], v[0]));
-  const F32 last = xsimd::select(first, v[2], xsimd::select(second, v[0], v[1]));
-  const F32 most = xsimd::select(first, F32(0.0F), xsimd::select(second, F32(1.0F), F32(2.0F)));
-  const F32 inverse = F32(1.0F) / z;
-  const F32 q[3] = {F32(1.0F) - xsimd::sqrt(F32(1.0F) - z), xsimd::sqrt(next * inverse),
-                    xsimd::sqrt(last * inverse)};
-  const F32 steps(static_cast<float>(table.steps));
-  const F32 limit = steps - F32(0.5F);
-  I32 node = xsimd::to_int(most);
-  F32 d[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const F32 scaled = q[i] * steps;
-    const I32 cell = xsimd::to_int(min(limit, scaled));
-    d[i] = scaled - (xsimd::to_float(cell) + F32(0.5F));
-    node = node * I32(table.steps) + cell;
-  }
-  const I32 at = node * I32(static_cast<std::int32_t>(kSigmoidNode));
-  const F32 root = F32(1.0F) / xsimd::sqrt(z);
-  Coefficients out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* const e = table.nodes + 3 + 9 * k;
-    const auto entry = [&](std::size_t i) { return gather(e + i, at); };
-    // By the powers of the first distance, then of the second, then of the third.
-    const F32 first_part = fused(fused(entry(3), d[0], entry(0)), d[0], gather(table.nodes + k, at));
-    const F32 slope = fused(entry(4), d[1], fused(entry(6), d[0], entry(1)));
-    const F32 last_slope = fused(entry(5), d[2], fused(entry(8), d[1], fused(entry(7), d[0], entry(2))));
-    out.c[k] = fused(last_slope, d[2], fused(slope, d[1], first_part)) * root;
-  }
-  return out;
-}
 
 /// Colours that are searched for, and under which conditions.
 struct Search {
@@ -151,7 +23,7 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
   F32 scale = search.scale;
   F32 goal[3];
   for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
-  SigmoidSums sums = sums_of(a, table);
+  SigmoidSums sums = band_sums(a, table);
   Residual left = residual(sums, goal);
   F32 part = one;
   Mask active = scale == scale;
@@ -174,9 +46,10 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
       trial.c[k] = xsimd::select(down, trial.c[k] + trial.c[k], trial.c[k]);
       goal[k] = xsimd::select(down, search.target[k] * scale, goal[k]);
     }
-    const SigmoidSums sums_there = sums_of(trial, table);
+    const SigmoidSums sums_there = band_sums(trial, table);
     const Residual left_there = residual(sums_there, goal);
-    const Mask better = down | (active & (left_there.size < left.size) & (length_of(trial) <= search.steep));
+    const Mask better =
+        down | (active & (left_there.size < left.size) & (magnitude_sum(trial) <= search.steep));
     for (std::size_t k = 0; k < 3; ++k) {
       a.c[k] = xsimd::select(better, trial.c[k], a.c[k]);
       left.r[k] = xsimd::select(better, left_there.r[k], left.r[k]);
@@ -194,7 +67,7 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
 
 /// How much too large the residual of coefficients is for colours of which z is the largest component.
 inline F32 excess(const Coefficients& a, const F32 target[3], F32 z, const SigmoidTable& table) noexcept {
-  const Residual left = residual(sums_of(a, table), target);
+  const Residual left = residual(band_sums(a, table), target);
   return left.size -
          xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), z * F32(kSigmoidMet)));
 }
@@ -202,13 +75,13 @@ inline F32 excess(const Coefficients& a, const F32 target[3], F32 z, const Sigmo
 // Lanes solved together, so that those which need more steps can be gathered from among them.
 inline constexpr std::size_t kSigmoidBatch = 512;
 
-/// What the first step leaves for those after it.
+/// Lanes that the first step leaves for those after it.
 struct SigmoidBatch {
   alignas(64) float c[3][kSigmoidBatch];
   alignas(64) float target[3][kSigmoidBatch];
   alignas(64) float close[kSigmoidBatch];
-  alignas(
-      64) float inside[kSigmoidBatch];  // largest component that the start had; minus that outside the cube
+  /// largest component that the start had; minus that outside the cube
+  alignas(64) float inside[kSigmoidBatch];
   alignas(64) float excess[kSigmoidBatch];
   alignas(64) std::uint16_t lane[kSigmoidBatch];
   std::size_t count = 0;
@@ -243,7 +116,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
   for (std::size_t k = 0; k < 3; ++k) lit[k] = xsimd::select(black, F32(0.5F), v[k]);
   const F32 lit_z = xsimd::select(black, F32(0.5F), z);
   Coefficients out = start(lit, lit_z, table);
-  const SigmoidSums sums = sums_of(out, table);
+  const SigmoidSums sums = band_sums(out, table);
   const Residual left = residual(sums, target);
   const Coefficients step = newton_step(sums, left);
   const Mask near = left.size <= F32(kSigmoidNear) * z;

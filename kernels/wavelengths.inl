@@ -1,11 +1,12 @@
-// Spectra at single wavelengths, wavelengths drawn at random, and what they add up to.
+// Spectra at single wavelengths, sampled wavelengths, and their projection.
 #pragma once
 
-#include "kernels/exponential.inl"
-#include "kernels/sigmoid.inl"
-#include "kernels/simd.hpp"
-#include "kernels/simd_convert.hpp"
-#include "kernels/simd_tables.hpp"
+#include "kernels/abi/wavelengths.hpp"
+#include "kernels/exponential_series.inl"
+#include "kernels/sigmoid_point.inl"
+#include "kernels/simd/convert.hpp"
+#include "kernels/simd/tables.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {
@@ -36,14 +37,14 @@ inline F32 or_nan(F32 lambda, F32 value) noexcept {
   return xsimd::select(is_nan(lambda), lambda, value);
 }
 
-void look_up_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
+void interpolate_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     store(dst + i, or_nan(lambda, value_at(table.pairs, place_in(table, lambda))));
   }
 }
 
-void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
+void interpolate_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
   const F32 first(table.knots[0]);
   const F32 last(table.knots[table.count - 1]);
   for (std::size_t i = 0; i < n; i += kWidth) {
@@ -65,7 +66,7 @@ inline F32 in_double(F32 v, Function f) noexcept {
   return narrow(f(widen_low(v)), f(widen_high(v)));
 }
 
-/// 2^-n for whole n from 0 to 126.
+/// 2^-n for integers n from 0 to 126.
 inline F32 two_to_minus(I32 n) noexcept {
   return bits_as<float>((I32(127) - n) << 23);
 }
@@ -83,7 +84,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
     const F32 x = exponent * inverse;
     const Mask live = good & (x < F32(kPlanckLimit));
     const F32 near = xsimd::select(live, x, zero);
-    // What the rounded product misses the quotient by.
+    // The rounding error of the product.
     const F32 rest = (fused_minus(near, l, exponent) + F32(table.exponent_rest)) * inverse;
     const F32 whole = (near + magic) - magic;
     const F32 t = ((near - whole) + xsimd::select(live, rest, zero)) * F32(kLn2Float);
@@ -121,16 +122,16 @@ void gaussians(float* dst, const float* lambda_nm, const GaussianLobe* lobes, st
   }
 }
 
-void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
-                float scale, std::size_t n) noexcept {
-  const Coefficients a = {{F32(c[0]), F32(c[1]), F32(c[2])}};
-  const F32 low(lowest_nm);
-  const F32 high(highest_nm);
+void sigmoid_at(float* dst, const float* lambda_nm, const SigmoidSpectrum& spectrum, std::size_t n) noexcept {
+  const Coefficients a = {{F32(spectrum.c[0]), F32(spectrum.c[1]), F32(spectrum.c[2])}};
+  const F32 low(spectrum.lowest_nm);
+  const F32 high(spectrum.highest_nm);
+  const F32 scale(spectrum.scale);
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
     const F32 l = (held - F32(550.0F)) / F32(150.0F);
-    store(dst + i, or_nan(lambda, sigmoid_sample(a, l) * F32(scale)));
+    store(dst + i, or_nan(lambda, sigmoid_sample(a, l) * scale));
   }
 }
 
@@ -163,13 +164,13 @@ void visible_wavelengths(float* const* lambda_nm, float* const* density, const f
   const F64 one(1.0);
   for (std::size_t i = 0; i < n; i += kWidth) {
     spread(load(u + i), count, [&](std::size_t k, F32 v) {
-      const auto y_of = [&](F64 w) { return F64(d.from) - w * F64(d.by); };
+      const auto tanh_at = [&](F64 w) { return F64(d.from) - w * F64(d.by); };
       const F32 lambda = in_double(v, [&](F64 w) {
-        const F64 y = y_of(w);
+        const F64 y = tanh_at(w);
         return F64(d.centre_nm) - log2_double((one + y) / (one - y)) * per_log2;
       });
       const F32 pdf = in_double(v, [&](F64 w) {
-        const F64 y = y_of(w);
+        const F64 y = tanh_at(w);
         return F64(d.peak) * (one - y * y);
       });
       store(lambda_nm[k] + i, or_nan(v, lambda));
@@ -178,17 +179,16 @@ void visible_wavelengths(float* const* lambda_nm, float* const* density, const f
   }
 }
 
-void project_wavelengths(float* const dst[3], const float* const* values, const float* const* lambda_nm,
-                         const float* const* density, const EvenTable curves[3], float factor,
-                         std::size_t count, std::size_t n) noexcept {
+void project_wavelengths(float* const dst[3], const WavelengthRows& samples, const EvenTable curves[3],
+                         float factor, std::size_t n) noexcept {
   const F32 zero(0.0F);
   for (std::size_t i = 0; i < n; i += kWidth) {
     F32 sums[3] = {zero, zero, zero};
-    for (std::size_t k = 0; k < count; ++k) {
-      const F32 lambda = load(lambda_nm[k] + i);
-      const F32 pdf = load(density[k] + i);
+    for (std::size_t k = 0; k < samples.count; ++k) {
+      const F32 lambda = load(samples.lambda_nm[k] + i);
+      const F32 pdf = load(samples.density[k] + i);
       const Mask live = differ(pdf, zero);
-      const F32 weight = load(values[k] + i) / pdf;
+      const F32 weight = load(samples.values[k] + i) / pdf;
       const EvenPlace place = place_in(curves[0], lambda);
       for (std::size_t c = 0; c < 3; ++c) {
         const F32 value = or_nan(lambda, value_at(curves[c].pairs, place));

@@ -45,7 +45,7 @@ Result<std::shared_ptr<const Tables>> make_tables(const Bands& bands, bool relig
   out->knots = irregular_knots();
   for (const float nm : out->knots)
     out->knot_values.push_back(static_cast<float>(y(static_cast<double>(nm))));
-  std::copy_n(kSigmoidAtWavelengths, 3, t.coefficients);
+  std::copy_n(kSigmoidAtWavelengths.c, 3, t.coefficients);
   t.exponent = kPowExponent;
   t.planck_nm = static_cast<float>(kSecondRadiationNmK / kPlanckTemperature);
   t.first_nm = 360;

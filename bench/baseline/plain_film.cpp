@@ -37,13 +37,13 @@ void PlainFilm::add(const WavelengthSamples& s) {
       rows[1][k] = s.lambda_nm.data + k * s.lambda_nm.stride + first;
       rows[2][k] = s.density.data + k * s.density.stride + first;
     }
-    table_.film_weigh_wavelengths(quads_.data(), false, reasons_.data(), curves, like.limits, rows[0].data(),
-                                  rows[1].data(), rows[2].data(), nullptr, 1.0F / static_cast<float>(count),
-                                  count, n);
+    table_.film_weigh_wavelengths({quads_.data(), reasons_.data()},
+                                  {rows[0].data(), rows[1].data(), rows[2].data(), nullptr, count, n}, curves,
+                                  like.limits, 1.0F / static_cast<float>(count));
     std::int32_t tiles[2] = {INT32_MAX, -1};
     std::array<std::uint64_t, kernels::kFilmReasons> counts{};
-    table_.film_place(address_.data(), tiles, counts.data(), like.kernel_window, s.x.data() + first,
-                      s.y.data() + first, nullptr, reasons_.data(), n);
+    table_.film_place({address_.data(), tiles, counts.data()}, like.kernel_window,
+                      {s.x.data() + first, s.y.data() + first, nullptr, reasons_.data(), n});
     const auto pixel = [&](std::size_t i) { return pixels_ + 4 * static_cast<std::size_t>(address_[i]); };
     for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(pixel(i), 1);
     for (std::size_t i = 0; i < n; ++i) {

@@ -142,9 +142,9 @@ void run_paths(const kernels::KernelTable& k, Lanes& lanes, int bounces) {
     k.multiply(lanes.product.data(), product, lanes.bounces[bounce].data(), kMethodLanes * lanes.count);
     product = lanes.product.data();
   }
-  float* const xyz = lanes.xyz.data();
-  k.project(xyz, xyz + kMethodLanes, xyz + 2 * kMethodLanes, product, lanes.weights.data(), lanes.count,
-            blocks_for(kMethodLanes));
+  float* const x = lanes.xyz.data();
+  float* const xyz[3] = {x, x + kMethodLanes, x + 2 * kMethodLanes};
+  k.project(xyz, product, lanes.weights.data(), lanes.count, blocks_for(kMethodLanes));
 }
 
 }  // namespace

@@ -98,9 +98,8 @@ const float* const* rgb_pointers(const State& s, const float* (&to)[3]) {
 }
 
 void sum_up(const KernelTable& k, State& s) {
-  const ColorSpan xyz = s.xyz.span();
-  k.project(xyz.c[0], xyz.c[1], xyz.c[2], s.spectra.data(), ProjectorAccess::weights(*s.projector),
-            s.upsampler->bands().count(), blocks_for(kMethodLanes));
+  k.project(s.xyz.span().c, s.spectra.data(), ProjectorAccess::weights(*s.projector), s.upsampler->bands().count(),
+            blocks_for(kMethodLanes));
 }
 
 void through_halves(const KernelTable& k, State& s) {
@@ -110,8 +109,9 @@ void through_halves(const KernelTable& k, State& s) {
 
 void mix(const KernelTable& k, State& s) {
   const float* rgb[3];
-  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb), UpsamplerAccess::table(*s.upsampler),
-                 s.upsampler->lowest(), s.upsampler->bands().count(), blocks_for(kMethodLanes), false);
+  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb),
+                 {UpsamplerAccess::table(*s.upsampler), s.upsampler->bands().count(), s.upsampler->lowest()},
+                 blocks_for(kMethodLanes), false);
 }
 
 void solve(const KernelTable& k, State& s) {
@@ -122,24 +122,19 @@ void solve(const KernelTable& k, State& s) {
                   kMethodLanes);
 }
 
-const float* const* coefficient_pointers(State& s, const float* (&to)[3]) {
-  for (std::size_t k = 0; k < 3; ++k) to[k] = s.coefficients.data() + k * kMethodLanes;
-  return to;
+kernels::SigmoidSpectra sigmoids(State& s, const float* (&c)[3]) {
+  for (std::size_t k = 0; k < 3; ++k) c[k] = s.coefficients.data() + k * kMethodLanes;
+  return {c, nullptr, UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, s.upsampler->bands().count(), false};
 }
 
 void evaluate(const KernelTable& k, State& s) {
   const float* c[3];
-  k.sigmoid_blocks(s.spectra.data(), coefficient_pointers(s, c), nullptr,
-                   UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, false, s.upsampler->bands().count(),
-                   blocks_for(kMethodLanes), false);
+  k.sigmoid_blocks(s.spectra.data(), sigmoids(s, c), blocks_for(kMethodLanes), false);
 }
 
 void sum_sigmoid(const KernelTable& k, State& s) {
   const float* c[3];
-  const ColorSpan xyz = s.xyz.span();
-  k.sigmoid_project(xyz.c, coefficient_pointers(s, c), nullptr,
-                    UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, false,
-                    ProjectorAccess::weights(*s.projector), s.upsampler->bands().count(), kMethodLanes);
+  k.sigmoid_project(s.xyz.span().c, sigmoids(s, c), ProjectorAccess::weights(*s.projector), kMethodLanes);
 }
 
 /// A method on some bands, in each of its executions.

@@ -102,8 +102,9 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
     curves.largest = 2;
     const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
                                         std::numeric_limits<float>::max()};
-    k.film_weigh_wavelengths(a.out(), false, reasons_for(a.n()), curves, limits, radiance, lambda, density,
-                             nullptr, 1.0F / kWavelengths, kWavelengths, a.n());
+    k.film_weigh_wavelengths({a.out(), reasons_for(a.n())},
+                             {radiance, lambda, density, nullptr, kWavelengths, a.n()}, curves, limits,
+                             1.0F / kWavelengths);
   };
   const auto evaluate_errors = error_against(
       3,
@@ -160,8 +161,8 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
     const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
                                         std::numeric_limits<float>::max()};
-    k.film_weigh_bands(a.out(), false, reasons_for(a.n()), weights->data(), limits, rows.data(), nullptr,
-                       bands, a.n());
+    k.film_weigh_bands({a.out(), reasons_for(a.n())}, {rows.data(), nullptr, nullptr, nullptr, bands, a.n()},
+                       weights->data(), limits);
   };
   const auto evaluate_errors = error_against(
       3,

@@ -49,8 +49,8 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
         };
         const auto sum = [&](std::size_t c, double coarse_step) {
           // The part of a rest beyond half a coarse step belongs to the coarse limb.
-          const double over = std::nearbyint(std::ldexp(limbs[4 + c], -kFilmLimbBits));
-          const long double rest = static_cast<long double>(limbs[4 + c]) -
+          const double over = std::nearbyint(std::ldexp(limbs[kernels::kFilmQuadRest + c], -kFilmLimbBits));
+          const long double rest = static_cast<long double>(limbs[kernels::kFilmQuadRest + c]) -
                                    std::ldexp(static_cast<long double>(over), kFilmLimbBits);
           const long double coarse = static_cast<long double>(limbs[c]) + over;
           return (coarse + std::ldexp(rest, -kFilmLimbBits)) * coarse_step;

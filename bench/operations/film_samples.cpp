@@ -41,8 +41,8 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
     none.resize(a.n());
     std::int32_t tiles[2] = {std::numeric_limits<std::int32_t>::max(), -1};
     std::uint64_t counts[kernels::kFilmReasons] = {};
-    k.film_place(a.out<std::int32_t>(), tiles, counts, FilmAccess::state(*film).kernel_window, a.in(0),
-                 a.in(1), a.in(2), none.data(), a.n());
+    k.film_place({a.out<std::int32_t>(), tiles, counts}, FilmAccess::state(*film).kernel_window,
+                 {a.in(0), a.in(1), a.in(2), none.data(), a.n()});
   };
   op.error = [](const double* v, const double* out, double /*tiny*/) {
     const auto any = [&](auto is) { return is(v[0]) || is(v[1]) || is(v[2]); };
@@ -90,7 +90,8 @@ void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
     const kernels::FilmLimits limits = {std::numeric_limits<float>::infinity(),
                                         std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
-    k.film_band_quads(a.out(), stride, reasons.data(), limits, rows.data(), a.in(bands), bands, a.n());
+    k.film_band_quads(a.out(), stride, reasons.data(),
+                      {rows.data(), nullptr, nullptr, a.in(bands), bands, a.n()}, limits);
   };
   op.error = error_against(
       stride,
@@ -145,8 +146,8 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
       std::int32_t reasons[kLanes] = {};
       auto* const band = a.out<std::int32_t>() + block * 3 * kFilmWavelengths * kLanes;
       auto* const pairs = a.out() + (block * 3 + 1) * kFilmWavelengths * kLanes;
-      k.film_hits(band, pairs, reasons, s.buckets, limits, radiance, lambda, density, nullptr,
-                  static_cast<float>(kReference), kFilmWavelengths, kLanes);
+      k.film_hits({band, pairs, reasons}, {radiance, lambda, density, nullptr, kFilmWavelengths, kLanes},
+                  s.buckets, limits, static_cast<float>(kReference));
     }
   };
   op.read_block = [](const std::byte* block, std::size_t lane, double* values) {

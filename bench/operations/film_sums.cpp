@@ -122,7 +122,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   op.run = [film](const KernelTable& k, const Arrays& a) {
     over_tiles(
         a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-          k.film_add(tiles, 0, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1, kPixelLimbs);
+          k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
         });
   };
   op.admit = [film](float* v) {
@@ -132,7 +132,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double step = coarse_step(*film, c == 3);
-      const double off = std::abs(in_rest_steps(v[c], limbs[c], limbs[4 + c], step));
+      const double off = std::abs(in_rest_steps(v[c], limbs[c], limbs[kernels::kFilmQuadRest + c], step));
       worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
     }
     return worst;
@@ -150,7 +150,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, std::int64_t* const* tiles) {
       entries.sample = each_sample();
       entries.factor = filter_weights();
-      k.film_add(tiles, 0, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1, kPixelLimbs);
+      k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
     });
   };
   op.error = nullptr;
@@ -162,7 +162,8 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
       const double reference = v[c] * factor;
       const double half = 0.5 * std::ldexp(step, -kFilmLimbBits) + tiny;
       const double off =
-          std::abs(in_rest_steps(reference, limbs[c], limbs[4 + c], step)) * std::ldexp(step, -kFilmLimbBits);
+          std::abs(in_rest_steps(reference, limbs[c], limbs[kernels::kFilmQuadRest + c], step)) *
+          std::ldexp(step, -kFilmLimbBits);
       if (off > half) worst = std::max(worst, (off - half) / (0x1p-24 * std::abs(reference)));
     }
     return worst;
@@ -171,7 +172,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
 }
 
 void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op = sums_operation("film: add 4 wavelengths to their bands", 4 * kHitBands);
+  Operation op = sums_operation("film: add 4 wavelengths to their bands", kernels::kFilmHitLimbs * kHitBands);
   op.in = {kFilmWavelengths, 2, Element::kQuad};
   op.touched_bytes = kFilmWavelengths * 4 * sizeof(std::int64_t);
   // Two numbers a wavelength, times the factor.
@@ -193,10 +194,11 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
         bands[i] = static_cast<std::int32_t>(hit_band(i % apart, i / apart));
       }
     }
-    over_tiles(a, 4 * kHitBands,
+    over_tiles(a, kernels::kFilmHitLimbs * kHitBands,
                [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-                 k.film_add_hits(tiles, 0, FilmAccess::state(*film).band_grid, entries, bands.data() + first,
-                                 a.in() + 2 * first, kFilmWavelengths, apart, kHitBands);
+                 k.film_add_hits({tiles, 0, kernels::kFilmHitLimbs * kHitBands},
+                                 FilmAccess::state(*film).band_grid, entries,
+                                 {bands.data() + first, a.in() + 2 * first, kFilmWavelengths, apart});
                });
   };
   op.admit = [film](float* v) {
@@ -205,10 +207,11 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
     double worst = 0;
     for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
-      const double* const of_band = limbs + 4 * hit_band(lane, k);
+      const double* const of_band = limbs + kernels::kFilmHitLimbs * hit_band(lane, k);
       for (std::size_t c = 0; c < 2; ++c) {
         const double step = coarse_step(*film, c == 1);
-        const double off = std::abs(in_rest_steps(v[2 * k + c], of_band[c], of_band[2 + c], step));
+        const double off =
+            std::abs(in_rest_steps(v[2 * k + c], of_band[c], of_band[kernels::kFilmHitRest + c], step));
         worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
       }
     }
@@ -225,10 +228,11 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
   op.bound = 2.01;
   op.bottleneck = "one sample after another: seven limbs in scalar doubles, each of what the one before left";
   op.run = [film](const KernelTable& k, const Arrays& a) {
-    over_tiles(
-        a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-          k.film_add_moments(tiles, 0, FilmAccess::state(*film).moment_grid, entries, a.in() + 4 * first);
-        });
+    over_tiles(a, kPixelLimbs,
+               [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
+                 k.film_add_moments({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).moment_grid, entries,
+                                    a.in() + 4 * first);
+               });
   };
   op.admit = [film](float* v) {
     v[3] = std::abs(held(v[3], largest(*film, true)));
@@ -250,16 +254,16 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
       return out;
     };
     constexpr std::size_t kSquares[] = {0, 1, 2, 3};
-    constexpr std::size_t kWeights[] = {4, 5, 7};
     const auto error = [&](long double found, long double reference, int exponent, int limbs_in_it) {
       const long double half =
           std::ldexp(0.5L, exponent - kFilmCoarseBits - (limbs_in_it - 1) * kFilmLimbBits);
       const long double off = std::abs(found - reference) - half - tiny;
       return off > 0 ? static_cast<double>(off / (0x1p-53L * reference)) : 0.0;
     };
-    if (limbs[6] != 1) return kBeyond;
-    return std::max(error(sum(limbs, 4, kSquares, top), square, top, 4),
-                    error(sum(limbs, 3, kWeights, 2 * o.weight_range), w * w, 2 * o.weight_range, 3));
+    if (limbs[kernels::kFilmMomentCount] != 1) return kBeyond;
+    return std::max(
+        error(sum(limbs, 4, kSquares, top), square, top, 4),
+        error(sum(limbs, 3, kernels::kFilmWeightSquare, 2 * o.weight_range), w * w, 2 * o.weight_range, 3));
   };
   to.push_back(std::move(op));
 }
@@ -273,7 +277,7 @@ void add_counts(std::vector<Operation>& to) {
   op.bottleneck = "one address after another, as two may be of the same pixel";
   op.run = [](const KernelTable& k, const Arrays& a) {
     over_tiles(a, 1, [&](std::size_t, const FilmEntries& entries, std::int64_t* const* tiles) {
-      k.film_count(tiles, 0, entries);
+      k.film_count({tiles, 0, 1}, entries);
     });
   };
   op.error = [](const double*, const double* out, double) { return out[0] == 1 ? 0.0 : kBeyond; };

@@ -13,7 +13,7 @@ using SharedFilm = std::shared_ptr<const Film>;
 /// Pixels of such a film along a side, wavelengths of a sample, limbs of a pixel's colour and weight.
 inline constexpr int kFilmSide = 1024;
 inline constexpr std::size_t kFilmWavelengths = 4;
-inline constexpr std::size_t kPixelLimbs = 8;
+inline constexpr std::size_t kPixelLimbs = kernels::kFilmQuadLimbs;
 
 /// Samples on their way to pixels, and what is made of pixels. `spectral` keeps spectra on 60 bands.
 void add_film_samples(std::vector<Operation>& to, const SharedFilm& film, const SharedFilm& spectral,

@@ -122,7 +122,7 @@ std::function<double(const double*, const double*, double)> error_against(std::s
 
 // Constants of some operations.
 inline constexpr float kPowExponent = 2.4F;  ///< of sRGB's encoding
-inline constexpr float kSigmoidAtWavelengths[3] = {-3.0F, 1.0F, 0.5F};
+inline constexpr kernels::SigmoidSpectrum kSigmoidAtWavelengths = {{-3.0F, 1.0F, 0.5F}, 400, 700, 1};
 inline constexpr double kPlanckTemperature = 6504;  ///< K
 /// h c / k, exact since the redefinition of 2019. Source: CODATA 2018.
 inline constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;

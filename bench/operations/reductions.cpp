@@ -132,7 +132,8 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
       "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
       "memory";
   xyz.run = [=](const KernelTable& k, const Arrays& a) {
-    k.project(a.out(0), a.out(1), a.out(2), a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
+    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
+    k.project(dst, a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
   };
   xyz.error = error_against(3, weighted_by(weights, n, 3), count, false, xyz.bound);
   to.push_back(std::move(xyz));

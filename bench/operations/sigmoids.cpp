@@ -208,8 +208,8 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_blocks(a.out(), c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, false, bands,
-                     a.blocks, a.non_temporal);
+    k.sigmoid_blocks(a.out(), {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands}, a.blocks,
+                     a.non_temporal);
   };
   blocks.error = samples_error;
   to.push_back(std::move(blocks));
@@ -227,9 +227,8 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       for (std::size_t b = 0; b < bands; ++b) {
         rows[b] = half ? static_cast<void*>(a.out<std::uint16_t>(b)) : static_cast<void*>(a.out(b));
       }
-      const float* const samples = UpsamplerAccess::sigmoid(*upsampler)->table.rows;
-      (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(rows.data(), c, nullptr, samples, false, bands,
-                                                          a.n());
+      const kernels::SigmoidSpectra spectra = {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands};
+      (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(rows.data(), spectra, a.n());
     };
     line.error = samples_error;
     if (half) {
@@ -258,7 +257,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
     const SigmoidTable& t = UpsamplerAccess::sigmoid(*upsampler)->table;
-    k.sigmoid_project(dst, c, nullptr, t.rows, false, t.weights, bands, a.n());
+    k.sigmoid_project(dst, {c, nullptr, t.rows, bands}, t.weights, a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {
     if (!has_bound(c)) return kOutOfDomain;
@@ -282,8 +281,6 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
 
 /// One spectrum at many wavelengths.
 void add_at_wavelengths(std::vector<Operation>& to) {
-  constexpr float kLowest = 400;
-  constexpr float kHighest = 700;
   Operation op;
   op.group = "wavelengths";
   op.name = "sigmoid at wavelengths";
@@ -296,14 +293,15 @@ void add_at_wavelengths(std::vector<Operation>& to) {
   op.bottleneck = "one chain of sixteen dependent operations after a division";
   op.fill = uniform_values(1, 360.0F, 830.0F);
   op.run = [](const KernelTable& k, const Arrays& a) {
-    k.sigmoid_at(a.out(), a.in(), kSigmoidAtWavelengths, kLowest, kHighest, 1.0F, a.n());
+    k.sigmoid_at(a.out(), a.in(), kSigmoidAtWavelengths, a.n());
   };
   op.error = [](const double* v, const double* out, double /*tiny*/) {
     if (std::isnan(v[0])) return std::isnan(out[0]) ? 0.0 : kBeyond;
-    const double held = std::clamp(v[0], static_cast<double>(kLowest), static_cast<double>(kHighest));
+    const double held = std::clamp(v[0], static_cast<double>(kSigmoidAtWavelengths.lowest_nm),
+                                   static_cast<double>(kSigmoidAtWavelengths.highest_nm));
     const double l = sigmoid_lambda(held);
     double c[3];
-    for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kSigmoidAtWavelengths[k]);
+    for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kSigmoidAtWavelengths.c[k]);
     // Lambda is rounded twice, which the polynomial's slope passes on.
     const double slope = std::abs(2 * c[0] * l + c[1]);
     const double allowed = allowed_at(c, l) + 0x1p-24 * slope * std::abs(l);

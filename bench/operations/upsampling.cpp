@@ -91,8 +91,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_blocks(a.out(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands, a.blocks,
-                   a.non_temporal);
+    k.smits_blocks(a.out(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.blocks, a.non_temporal);
   };
   op.error = mixture_error(flat_basis(*upsampler), bands, 0);
   to.push_back(op);
@@ -107,8 +106,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     thread_local std::vector<void*> rows;
     rows.resize(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out(b);
-    k.smits_rows_float(rows.data(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands,
-                       a.n());
+    k.smits_rows_float(rows.data(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
   };
   to.push_back(op);
 
@@ -122,8 +120,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     thread_local std::vector<void*> rows;
     rows.resize(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out<std::uint16_t>(b);
-    k.smits_rows_half(rows.data(), rgb, UpsamplerAccess::table(*upsampler), upsampler->lowest(), bands,
-                      a.n());
+    k.smits_rows_half(rows.data(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
   };
   const auto basis = flat_basis(*upsampler);
   op.error = [=](const double* rgb, const double* out, double /*tiny*/) {

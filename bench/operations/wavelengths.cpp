@@ -66,7 +66,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   even.bottleneck = "gathers: two loads a lane from the table";
   even.bound = 4;
   even.run = [=](const KernelTable& k, const Arrays& a) {
-    k.look_up_even(a.out(), a.in(), even_table(*pairs), a.n());
+    k.interpolate_even(a.out(), a.in(), even_table(*pairs), a.n());
   };
   even.error = error_against(
       1,
@@ -108,7 +108,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
       density[i] = a.in(2 * kWavelengths + i);
     }
     const EvenTable curves[3] = {even_table(*pairs), even_table(*pairs), even_table(*pairs)};
-    k.project_wavelengths(dst, values, lambda, density, curves, 0.25F, kWavelengths, a.n());
+    k.project_wavelengths(dst, {values, lambda, density, kWavelengths}, curves, 0.25F, a.n());
   };
   project.error = error_against(
       3,
@@ -168,7 +168,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     knots.buckets_per_nm = table->index.buckets_per_nm;
     knots.buckets = static_cast<std::int32_t>(table->index.start.size());
     knots.halvings = table->index.halvings;
-    k.look_up_knots(a.out(), a.in(), knots, a.n());
+    k.interpolate_knots(a.out(), a.in(), knots, a.n());
   };
   op.error = error_against(
       1,

@@ -161,8 +161,8 @@ Result<void> project(const Projector& projector, SampledSpectraView spectra, Col
   const std::size_t bands = spectra.bands.count();
   tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    table->project(color.c[0] + at, color.c[1] + at, color.c[2] + at, spectra.data + at * bands,
-                   ProjectorAccess::weights(projector), bands, count);
+    float* const dst[3] = {color.c[0] + at, color.c[1] + at, color.c[2] + at};
+    table->project(dst, spectra.data + at * bands, ProjectorAccess::weights(projector), bands, count);
   });
   return {};
 }

@@ -73,8 +73,8 @@ Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
     const rows::RowPointers<const float> places(lambda, at);
     const rows::RowPointers<const float> densities(density, at);
     float* const to[3] = {color.c[0] + at, color.c[1] + at, color.c[2] + at};
-    table->project_wavelengths(to, values.data(), places.data(), densities.data(), tables, factor,
-                               radiance.count, count * kLanesPerBlock);
+    table->project_wavelengths(to, {values.data(), places.data(), densities.data(), radiance.count}, tables,
+                               factor, count * kLanesPerBlock);
   });
   return {};
 }

@@ -15,13 +15,18 @@
 
 namespace spectile {
 namespace kernels {
-#if defined(__x86_64__)
-extern const KernelTable sse42;
-extern const KernelTable avx2;
-extern const KernelTable avx512;
-#elif defined(__aarch64__)
-extern const KernelTable neon;
-#endif
+namespace sse42 {
+extern const KernelFamilies families;
+}
+namespace avx2 {
+extern const KernelFamilies families;
+}
+namespace avx512 {
+extern const KernelFamilies families;
+}
+namespace neon {
+extern const KernelFamilies families;
+}
 }  // namespace kernels
 
 namespace dispatch {
@@ -30,7 +35,7 @@ namespace {
 using kernels::KernelTable;
 
 #if defined(__x86_64__)
-// Half conversion; the operating system's part is covered by the test for AVX2 that always goes with it.
+// F16C; the operating system's part is covered by the test for AVX2 that always goes with it.
 bool has_f16c() {
   unsigned a = 0;
   unsigned b = 0;
@@ -52,31 +57,41 @@ bool runs_avx512() {
 }
 #endif
 
-struct Entry {
-  std::string_view name;
-  const KernelTable* table;  // null: not in this build
-  bool (*runs)();
-};
-
-bool always() {
-  return true;
+/// The table of one instruction set, put together here: code of the kernels' units may not run on this
+/// machine.
+template <const kernels::KernelFamilies& kFamilies>
+const KernelTable* joined() {
+  static const KernelTable table = {*kFamilies.arithmetic,  *kFamilies.color, *kFamilies.upsampling,
+                                    *kFamilies.wavelengths, *kFamilies.film,  kFamilies.name,
+                                    kFamilies.lanes};
+  return &table;
 }
 
+struct Entry {
+  std::string_view name;
+  bool (*runs)();  // null: not in this build
+  const KernelTable* (*table)();
+};
+
 constexpr Entry kEntries[] = {
-    {"scalar", &reference::table, always},
+    {"scalar", [] { return true; }, [] { return &reference::table; }},
 #if defined(__x86_64__)
-    {"sse4.2", &kernels::sse42, runs_sse42},   {"avx2", &kernels::avx2, runs_avx2},
-    {"avx512", &kernels::avx512, runs_avx512}, {"neon", nullptr, always},
-#elif defined(__aarch64__)
-    {"sse4.2", nullptr, always},           {"avx2", nullptr, always},
-    {"avx512", nullptr, always},           {"neon", &kernels::neon, always},
+    {"sse4.2", runs_sse42, joined<kernels::sse42::families>},
+    {"avx2", runs_avx2, joined<kernels::avx2::families>},
+    {"avx512", runs_avx512, joined<kernels::avx512::families>},
 #else
-    {"sse4.2", nullptr, always},           {"avx2", nullptr, always},
-    {"avx512", nullptr, always},           {"neon", nullptr, always},
+    {"sse4.2", nullptr, nullptr},
+    {"avx2", nullptr, nullptr},
+    {"avx512", nullptr, nullptr},
+#endif
+#if defined(__aarch64__)
+    {"neon", [] { return true; }, joined<kernels::neon::families>},
+#else
+    {"neon", nullptr, nullptr},
 #endif
 };
 
-std::atomic<const KernelTable*> forced{nullptr};
+std::atomic<const KernelTable*> override_table{nullptr};
 
 std::string names_here() {
   std::string names;
@@ -90,7 +105,7 @@ std::string names_here() {
 std::vector<const KernelTable*> available() {
   std::vector<const KernelTable*> tables;
   for (const Entry& entry : kEntries) {
-    if (entry.table != nullptr && entry.runs()) tables.push_back(entry.table);
+    if (entry.runs != nullptr && entry.runs()) tables.push_back(entry.table());
   }
   return tables;
 }
@@ -98,7 +113,7 @@ std::vector<const KernelTable*> available() {
 Result<const KernelTable*> find(std::string_view name) {
   for (const Entry& entry : kEntries) {
     if (entry.name != name) continue;
-    if (entry.table != nullptr && entry.runs()) return entry.table;
+    if (entry.runs != nullptr && entry.runs()) return entry.table();
     return make_error(ErrorCode::kUnavailable,
                       "instruction set \"{}\" does not run on this machine, which has {}", name,
                       names_here());
@@ -108,7 +123,7 @@ Result<const KernelTable*> find(std::string_view name) {
 }
 
 Result<const KernelTable*> active() {
-  if (const KernelTable* table = forced.load(std::memory_order_acquire)) return table;
+  if (const KernelTable* table = override_table.load(std::memory_order_acquire)) return table;
   static const Result<const KernelTable*> chosen = []() -> Result<const KernelTable*> {
     const char* name = std::getenv("SPECTILE_ISA");
     if (name == nullptr || *name == '\0') return available().back();
@@ -121,11 +136,11 @@ Result<const KernelTable*> active() {
 
 Result<void> force(std::string_view name) {
   if (name.empty()) {
-    forced.store(nullptr, std::memory_order_release);
+    override_table.store(nullptr, std::memory_order_release);
     return {};
   }
   SPECTILE_ASSIGN(const auto table, find(name));
-  forced.store(table, std::memory_order_release);
+  override_table.store(table, std::memory_order_release);
   return {};
 }
 

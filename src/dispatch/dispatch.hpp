@@ -16,7 +16,7 @@ Result<const kernels::KernelTable*> find(std::string_view name);
 /// Every table that runs here, the reference first, the fastest last.
 std::vector<const kernels::KernelTable*> available();
 
-/// The table in force: the one forced, else that of SPECTILE_ISA, else the fastest. Errors: as find.
+/// The active table: the one set by force, else that of SPECTILE_ISA, else the fastest. Errors: as find.
 Result<const kernels::KernelTable*> active();
 
 /// Forces a table for the whole process; an empty name undoes it. Errors: as find.

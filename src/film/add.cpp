@@ -96,22 +96,21 @@ Result<void> make_room(const State& s, std::size_t wavelengths, FilmScratch& scr
 /// Everything that samples contribute, into the scratch, and the reasons why some do not.
 void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch, std::size_t n,
            FilmScratch& scratch) {
-  const std::size_t count = batch.radiance.count;
+  const kernels::FilmSamples samples = {scratch.radiance.data(), scratch.lambda_nm.data(),
+                                        scratch.density.data(),  batch.weight,
+                                        batch.radiance.count,    n};
   for (std::size_t c = 0; c < s.responses.size(); ++c) {
-    float* const quads = scratch.quads.data() + c * scratch.quad_floats;
-    const bool luminance = c == 0 && s.layout.moments;
-    std::int32_t* const reasons = (c == 0 ? scratch.reasons : scratch.more_reasons).data();
+    const kernels::FilmQuads out = {scratch.quads.data() + c * scratch.quad_floats,
+                                    (c == 0 ? scratch.reasons : scratch.more_reasons).data(),
+                                    c == 0 && s.layout.moments};
     const float* const response = s.responses[c].table.data();
     if (s.options.input == FilmInput::kBands) {
-      table.film_weigh_bands(quads, luminance, reasons, response, s.limits, scratch.radiance.data(),
-                             batch.weight, count, n);
+      table.film_weigh_bands(out, samples, response, s.limits);
     } else {
       const kernels::FilmCurves curves = {response, static_cast<float>(kFirstVisibleNm),
                                           static_cast<std::int32_t>(kLastVisibleNm - kFirstVisibleNm),
                                           s.responses[c].largest};
-      table.film_weigh_wavelengths(quads, luminance, reasons, curves, s.limits, scratch.radiance.data(),
-                                   scratch.lambda_nm.data(), scratch.density.data(), batch.weight,
-                                   1.0F / static_cast<float>(count), count, n);
+      table.film_weigh_wavelengths(out, samples, curves, s.limits, 1.0F / static_cast<float>(samples.count));
     }
     // Faults are the same for all; what is beyond the range may differ.
     for (std::size_t i = 0; c > 0 && i < n; ++i) {
@@ -120,12 +119,11 @@ void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch
   }
   if (s.layout.bands == 0) return;
   if (s.layout.own_weights) {
-    table.film_hits(scratch.band.data(), scratch.hits.data(), scratch.reasons.data(), s.buckets, s.limits,
-                    scratch.radiance.data(), scratch.lambda_nm.data(), scratch.density.data(), batch.weight,
-                    kReferenceDensity, count, n);
+    table.film_hits({scratch.band.data(), scratch.hits.data(), scratch.reasons.data()}, samples, s.buckets,
+                    s.limits, kReferenceDensity);
   } else {
     table.film_band_quads(scratch.band_quads.data(), 4 * s.layout.band_quads(), scratch.reasons.data(),
-                          s.limits, scratch.radiance.data(), batch.weight, count, n);
+                          samples, s.limits);
   }
 }
 
@@ -138,8 +136,8 @@ Result<void> add_chunk(State& s, const kernels::KernelTable& table, const Batch&
   const FilmContributions contributions = {.wavelengths = whole.radiance.count, .samples = padded};
   if (s.options.placement == SamplePlacement::kOnePixel) {
     std::int32_t tiles[2] = {std::numeric_limits<std::int32_t>::max(), -1};
-    table.film_place(scratch.address.data(), tiles, counts.data(), s.kernel_window, batch.x, batch.y,
-                     batch.weight, scratch.reasons.data(), n);
+    table.film_place({scratch.address.data(), tiles, counts.data()}, s.kernel_window,
+                     {batch.x, batch.y, batch.weight, scratch.reasons.data(), n});
     SPECTILE_TRY(add_entries(s, table, contributions,
                              {.sample = nullptr,
                               .address = scratch.address.data(),

@@ -45,8 +45,10 @@ bool reserve_tile(State& s, std::size_t tile, std::size_t count, std::size_t wei
 void prefetch_pixel(const State& s, const std::int64_t* tile, std::size_t pixel) {
   constexpr int kToWrite = 1;
   const FilmTileLayout& l = s.layout;
-  for (std::size_t q = 0; q < l.quads; ++q) __builtin_prefetch(tile + 8 * (pixel * l.quads + q), kToWrite);
-  if (l.moments) __builtin_prefetch(tile + l.moments_at + 8 * pixel, kToWrite);
+  for (std::size_t q = 0; q < l.quads; ++q) {
+    __builtin_prefetch(tile + kernels::kFilmQuadLimbs * (pixel * l.quads + q), kToWrite);
+  }
+  if (l.moments) __builtin_prefetch(tile + l.moments_at + kernels::kFilmMomentLimbs * pixel, kToWrite);
 }
 
 /// Adds entries whose tiles have memory and whose mutexes are held.
@@ -55,20 +57,21 @@ void run_kernels(State& s, const KernelTable& table, const FilmContributions& c,
   const FilmTileLayout& l = s.layout;
   std::int64_t* const* const tiles = s.tiles.data();
   for (std::size_t q = 0; q < l.quads; ++q) {
-    table.film_add(tiles, 8 * q, s.grid, entries, scratch.quads.data() + q * scratch.quad_floats, 1,
-                   8 * l.quads);
+    table.film_add({tiles, kernels::kFilmQuadLimbs * q, kernels::kFilmQuadLimbs * l.quads}, s.grid, entries,
+                   scratch.quads.data() + q * scratch.quad_floats, 1);
   }
+  const kernels::FilmSums spectrum = {tiles, l.spectrum_at, l.spectrum_limbs()};
   if (l.bands > 0 && l.own_weights) {
-    table.film_add_hits(tiles, l.spectrum_at, s.band_grid, entries, scratch.band.data(), scratch.hits.data(),
-                        c.wavelengths, c.samples, l.bands);
+    table.film_add_hits(spectrum, s.band_grid, entries,
+                        {scratch.band.data(), scratch.hits.data(), c.wavelengths, c.samples});
   } else if (l.bands > 0) {
-    table.film_add(tiles, l.spectrum_at, s.band_grid, entries, scratch.band_quads.data(), l.band_quads(),
-                   8 * l.band_quads());
+    table.film_add(spectrum, s.band_grid, entries, scratch.band_quads.data(), l.band_quads());
   }
   if (l.moments) {
-    table.film_add_moments(tiles, l.moments_at, s.moment_grid, entries, scratch.quads.data());
+    table.film_add_moments({tiles, l.moments_at, kernels::kFilmMomentLimbs}, s.moment_grid, entries,
+                           scratch.quads.data());
   }
-  if (l.counts) table.film_count(tiles, l.counts_at, entries);
+  if (l.counts) table.film_count({tiles, l.counts_at, 1}, entries);
 }
 
 Error no_memory() {

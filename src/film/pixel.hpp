@@ -1,4 +1,4 @@
-// FilmPixels: values of a pixel from its limbs.
+// FilmPixels: the numbers that a pixel's limbs hold.
 #pragma once
 
 #include <cmath>
@@ -21,12 +21,12 @@ class FilmPixels {
   /// Sum of the weights.
   double weight(const std::int64_t* tile, std::size_t pixel) const {
     const std::int64_t* const q = quad(tile, pixel, 0);
-    return sum(q[3], q[7], weight_);
+    return sum(q[kernels::kFilmQuadWeight], q[kernels::kFilmQuadWeight + kernels::kFilmQuadRest], weight_);
   }
   /// Sum of a component of a colour's contributions.
   double color(const std::int64_t* tile, std::size_t pixel, std::size_t quad_index, std::size_t c) const {
     const std::int64_t* const q = quad(tile, pixel, quad_index);
-    return sum(q[c], q[4 + c], color_);
+    return sum(q[c], q[kernels::kFilmQuadRest + c], color_);
   }
 
   /// Writes a layer's value of a pixel to each plane.
@@ -76,7 +76,7 @@ class FilmPixels {
 
  private:
   const std::int64_t* quad(const std::int64_t* tile, std::size_t pixel, std::size_t index) const {
-    return tile + 8 * (pixel * s_.layout.quads + index);
+    return tile + kernels::kFilmQuadLimbs * (pixel * s_.layout.quads + index);
   }
   /// Carried over first, so that equal sums are equal numbers whether or not the tile's carries are
   /// normalized.
@@ -87,36 +87,44 @@ class FilmPixels {
     return static_cast<double>(coarse) * coarse_step +
            static_cast<double>(rest) * (coarse_step * kRestOfCoarse);
   }
+  /// Of limbs of ever smaller steps, carried over first.
+  template <std::size_t kCount>
+  static double sum(std::array<std::int64_t, kCount> limbs, double first_step) {
+    for (std::size_t k = kCount - 1; k > 0; --k) film_carry(limbs[k - 1], limbs[k]);
+    double out = 0;
+    for (std::size_t k = kCount; k-- > 0;) {
+      out += static_cast<double>(limbs[k]) * std::ldexp(first_step, -static_cast<int>(k) * kFilmLimbBits);
+    }
+    return out;
+  }
   double band(const std::int64_t* tile, std::size_t pixel, std::size_t b, double w) const {
     const std::int64_t* const spectrum = tile + s_.layout.spectrum_at + pixel * s_.layout.spectrum_limbs();
     if (s_.layout.own_weights) {
-      const std::int64_t* const limbs = spectrum + 4 * b;
-      const double hits = sum(limbs[1], limbs[3], weight_);
-      return hits == 0 ? 0.0 : sum(limbs[0], limbs[2], color_) / hits;
+      const std::int64_t* const limbs = spectrum + kernels::kFilmHitLimbs * b;
+      const double hits = sum(limbs[kernels::kFilmHitWeight],
+                              limbs[kernels::kFilmHitWeight + kernels::kFilmHitRest], weight_);
+      return hits == 0 ? 0.0 : sum(limbs[0], limbs[kernels::kFilmHitRest], color_) / hits;
     }
-    const std::int64_t* const limbs = spectrum + 8 * (b / 4) + b % 4;
-    return w == 0 ? 0.0 : sum(limbs[0], limbs[4], color_) / w;
+    const std::int64_t* const limbs = spectrum + kernels::kFilmQuadLimbs * (b / 4) + b % 4;
+    return w == 0 ? 0.0 : sum(limbs[0], limbs[kernels::kFilmQuadRest], color_) / w;
   }
   std::int64_t count(const std::int64_t* tile, std::size_t pixel) const {
-    return s_.layout.moments ? tile[s_.layout.moments_at + 8 * pixel + 6] : tile[s_.layout.counts_at + pixel];
+    return s_.layout.moments ? moments(tile, pixel)[kernels::kFilmMomentCount]
+                             : tile[s_.layout.counts_at + pixel];
+  }
+  const std::int64_t* moments(const std::int64_t* tile, std::size_t pixel) const {
+    return tile + s_.layout.moments_at + kernels::kFilmMomentLimbs * pixel;
   }
   /// Of the pixel's luminance, from samples of different weights: with r = sum w^2 / (sum w)^2, the samples'
   /// variance is (mean of squares - square of mean) / (1 - r), and that of their mean r times that.
   double variance(const std::int64_t* tile, std::size_t pixel, double w) const {
-    const std::int64_t* const m = tile + s_.layout.moments_at + 8 * pixel;
-    if (m[6] < 2 || w == 0) return std::numeric_limits<double>::infinity();
-    std::int64_t limbs[4] = {m[0], m[1], m[2], m[3]};
-    for (int k = 3; k > 0; --k) film_carry(limbs[k - 1], limbs[k]);
-    double squares = 0;
-    for (int k = 3; k >= 0; --k) {
-      squares += static_cast<double>(limbs[k]) * std::ldexp(luminance_square_, -k * kFilmLimbBits);
-    }
-    std::int64_t weights[3] = {m[4], m[5], m[7]};
-    for (int k = 2; k > 0; --k) film_carry(weights[k - 1], weights[k]);
-    double weight_squares = 0;
-    for (int k = 2; k >= 0; --k) {
-      weight_squares += static_cast<double>(weights[k]) * std::ldexp(weight_square_, -k * kFilmLimbBits);
-    }
+    const std::int64_t* const m = moments(tile, pixel);
+    if (m[kernels::kFilmMomentCount] < 2 || w == 0) return std::numeric_limits<double>::infinity();
+    const double squares = sum(std::array{m[0], m[1], m[2], m[3]}, luminance_square_);
+    const double weight_squares =
+        sum(std::array{m[kernels::kFilmWeightSquare[0]], m[kernels::kFilmWeightSquare[1]],
+                       m[kernels::kFilmWeightSquare[2]]},
+            weight_square_);
     const double share = weight_squares / (w * w);
     if (!(share < 1)) return std::numeric_limits<double>::infinity();
     const double mean = color(tile, pixel, 0, 1) / w;

@@ -42,7 +42,7 @@ struct Axis {
         const bool inside = distance > -radius && distance <= radius;
         row[i] = inside ? static_cast<float>(std::abs(distance)) : 2 * profile.radius;
       }
-      table.look_up_even(row, row, profile.table, kPart);
+      table.interpolate_even(row, row, profile.table, kPart);
     }
   }
   /// The sample's pixels within the window, counted from its first one.

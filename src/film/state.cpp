@@ -78,9 +78,9 @@ FilmTileLayout tile_layout(const FilmOptions& o) {
   out.own_weights = o.input == FilmInput::kWavelengths;
   out.moments = o.statistics == PixelStatistics::kVariance;
   out.counts = o.statistics == PixelStatistics::kCounts;
-  out.spectrum_at = 8 * out.quads * kFilmTilePixels;
+  out.spectrum_at = kernels::kFilmQuadLimbs * out.quads * kFilmTilePixels;
   out.moments_at = out.spectrum_at + out.spectrum_limbs() * kFilmTilePixels;
-  out.counts_at = out.moments_at + (out.moments ? 8 * kFilmTilePixels : 0);
+  out.counts_at = out.moments_at + (out.moments ? kernels::kFilmMomentLimbs * kFilmTilePixels : 0);
   out.limbs = out.counts_at + (out.counts ? kFilmTilePixels : 0);
   return out;
 }
@@ -89,10 +89,11 @@ void make_grids(FilmAccess::State& s) {
   const int color = s.options.range - kFilmCoarseBits;
   const int weight = s.options.weight_range - kFilmCoarseBits;
   for (std::size_t c = 0; c < 4; ++c) {
-    const int of_quad = c == 3 ? weight : color;
+    const int of_quad = c == kernels::kFilmQuadWeight ? weight : color;
     s.grid.coarse[c] = magic(of_quad);
     s.grid.rest[c] = magic(of_quad - kFilmLimbBits);
-    const int of_band = s.layout.own_weights && c % 2 == 1 ? weight : color;
+    const int of_band =
+        s.layout.own_weights && c % kernels::kFilmHitRest == kernels::kFilmHitWeight ? weight : color;
     s.band_grid.coarse[c] = magic(of_band);
     s.band_grid.rest[c] = magic(of_band - kFilmLimbBits);
   }
@@ -136,33 +137,31 @@ void Film::State::normalize_carries(std::size_t tile) noexcept {
   if (limbs == nullptr || normalized[tile] == additions[tile]) return;
   normalized[tile] = additions[tile];
   bool fits = true;
-  const auto normalize_four = [&](std::int64_t* at) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      film_carry(at[c], at[4 + c]);
-      fits = fits && at[c] <= kMaxCoarse && at[c] >= -kMaxCoarse;
+  const auto carry = [&fits](std::int64_t& coarse, std::int64_t& rest) {
+    film_carry(coarse, rest);
+    fits = fits && coarse <= kMaxCoarse && coarse >= -kMaxCoarse;
+  };
+  const auto carry_quads = [&carry](std::int64_t* quads, std::size_t count) {
+    for (std::int64_t* q = quads; q < quads + kernels::kFilmQuadLimbs * count; q += kernels::kFilmQuadLimbs) {
+      for (std::size_t c = 0; c < kernels::kFilmQuadRest; ++c) carry(q[c], q[c + kernels::kFilmQuadRest]);
     }
   };
-  for (std::size_t q = 0; q < layout.quads * kFilmTilePixels; ++q) normalize_four(limbs + 8 * q);
+  carry_quads(limbs, layout.quads * kFilmTilePixels);
   std::int64_t* const spectrum = limbs + layout.spectrum_at;
   if (layout.own_weights) {
     for (std::size_t b = 0; b < layout.bands * kFilmTilePixels; ++b) {
-      for (std::size_t c = 0; c < 2; ++c) {
-        film_carry(spectrum[4 * b + c], spectrum[4 * b + 2 + c]);
-        fits = fits && spectrum[4 * b + c] <= kMaxCoarse && spectrum[4 * b + c] >= -kMaxCoarse;
-      }
+      std::int64_t* const band = spectrum + kernels::kFilmHitLimbs * b;
+      for (std::size_t c = 0; c < kernels::kFilmHitRest; ++c) carry(band[c], band[c + kernels::kFilmHitRest]);
     }
   } else {
-    for (std::size_t q = 0; q < layout.band_quads() * kFilmTilePixels; ++q) normalize_four(spectrum + 8 * q);
+    carry_quads(spectrum, layout.band_quads() * kFilmTilePixels);
   }
-  if (layout.moments) {
-    std::int64_t* const moments = limbs + layout.moments_at;
-    for (std::size_t p = 0; p < kFilmTilePixels; ++p) {
-      std::int64_t* const m = moments + 8 * p;
-      for (std::size_t k = 3; k > 0; --k) film_carry(m[k - 1], m[k]);
-      film_carry(m[5], m[7]);
-      film_carry(m[4], m[5]);
-      for (const std::int64_t v : {m[0], m[4]}) fits = fits && v <= kMaxCoarse && v >= -kMaxCoarse;
-    }
+  for (std::size_t p = 0; layout.moments && p < kFilmTilePixels; ++p) {
+    std::int64_t* const m = limbs + layout.moments_at + kernels::kFilmMomentLimbs * p;
+    for (std::size_t k = kernels::kFilmSquareLimbs - 1; k > 1; --k) film_carry(m[k - 1], m[k]);
+    carry(m[0], m[1]);
+    film_carry(m[kernels::kFilmWeightSquare[1]], m[kernels::kFilmWeightSquare[2]]);
+    carry(m[kernels::kFilmWeightSquare[0]], m[kernels::kFilmWeightSquare[1]]);
   }
   if (!fits) overflown = true;
 }

@@ -40,10 +40,10 @@ struct FilmResponse {
 
 /// Where a tile's parts begin, in limbs of 64 bits; each part holds a fixed number of limbs a pixel.
 struct FilmTileLayout {
-  std::size_t quads = 1;     ///< of colours a pixel, 8 limbs each: XYZ or the first sensor with the weight
+  std::size_t quads = 1;     ///< of colours a pixel: XYZ or the first sensor with the weight
   std::size_t bands = 0;     ///< of the spectrum, 0 where none is kept
-  bool own_weights = false;  ///< a band holds 4 limbs, value and weight; else quads of 4 bands hold 8
-  bool moments = false;      ///< 8 limbs a pixel
+  bool own_weights = false;  ///< kFilmHitLimbs a band, value and weight; else quads of 4 bands
+  bool moments = false;      ///< kFilmMomentLimbs a pixel
   bool counts = false;       ///< 1 limb a pixel
   std::size_t spectrum_at = 0;
   std::size_t moments_at = 0;
@@ -52,7 +52,9 @@ struct FilmTileLayout {
 
   std::size_t band_quads() const noexcept { return (bands + 3) / 4; }
   /// Limbs of the spectrum a pixel.
-  std::size_t spectrum_limbs() const noexcept { return own_weights ? 4 * bands : 8 * band_quads(); }
+  std::size_t spectrum_limbs() const noexcept {
+    return own_weights ? kernels::kFilmHitLimbs * bands : kernels::kFilmQuadLimbs * band_quads();
+  }
 };
 
 /// A profile of the pixel filter as a table over distances from 0 to its radius.

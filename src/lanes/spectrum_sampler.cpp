@@ -177,10 +177,10 @@ struct SpectrumSampler::Tables {
         for (std::size_t i = 0; i < n; ++i) out[i] = std::isnan(lambda_nm[i]) ? lambda_nm[i] : constant;
         break;
       case Kind::kKnots:
-        kernels.look_up_knots(out, lambda_nm, knots.table, n);
+        kernels.interpolate_knots(out, lambda_nm, knots.table, n);
         break;
       case Kind::kEven:
-        kernels.look_up_even(out, lambda_nm, even.table, n);
+        kernels.interpolate_even(out, lambda_nm, even.table, n);
         break;
       case Kind::kPlanck:
         kernels.planck(out, lambda_nm, planck, n);
@@ -195,12 +195,12 @@ struct SpectrumSampler::Tables {
   }
 
   void sigmoid_row(const KernelTable& kernels, const float* lambda_nm, float* out, std::size_t n) const {
-    kernels.sigmoid_at(out, lambda_nm, c.data(), lowest_nm, highest_nm, white ? 1.0F : scale, n);
+    kernels.sigmoid_at(out, lambda_nm, {{c[0], c[1], c[2]}, lowest_nm, highest_nm, white ? 1.0F : scale}, n);
     if (!white) return;
     // In the order of the batches of pixels: the sample, times the white, times the scale.
     alignas(64) float whites[kLanesPerBlock];
     for (std::size_t at = 0; at < n; at += kLanesPerBlock) {
-      kernels.look_up_knots(whites, lambda_nm + at, knots.table, kLanesPerBlock);
+      kernels.interpolate_knots(whites, lambda_nm + at, knots.table, kLanesPerBlock);
       kernels.multiply(out + at, out + at, whites, kLanesPerBlock);
       kernels.scale(out + at, out + at, scale, kLanesPerBlock);
     }

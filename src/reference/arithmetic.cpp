@@ -1,11 +1,10 @@
 // Scalar twins of the element-wise kernels and of the folds over bands.
-#include "src/reference/arithmetic.hpp"
-
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "kernels/abi.hpp"
+#include "src/reference/twins.hpp"
 
 namespace spectile::reference {
 

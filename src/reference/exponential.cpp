@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/reference/arithmetic.hpp"
+#include "src/reference/twins.hpp"
 
 namespace spectile::reference {
 namespace {

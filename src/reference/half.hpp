@@ -1,4 +1,4 @@
-// Half and float conversion on the bits, the scalar truth for every kernel's.
+// Half and float conversion on the bits, the reference for every kernel's.
 #pragma once
 
 #include <bit>
@@ -31,9 +31,9 @@ constexpr std::uint16_t half_from_float(float f) noexcept {
     half = 0x7E00U | ((magnitude >> 13) & 0x3FFU);
   } else if (magnitude >= 0x477FF000U) {  // 65520, halfway beyond the largest half
     half = 0x7C00U;
-  } else if (magnitude >= 0x38800000U) {  // 2^-14, the least normal half
+  } else if (magnitude >= 0x38800000U) {  // 2^-14, the smallest normal half
     half = (magnitude - 0x38000000U + 0xFFFU + ((magnitude >> 13) & 1U)) >> 13;
-  } else if (magnitude >= 0x33000000U) {  // 2^-25, half of the least denormal
+  } else if (magnitude >= 0x33000000U) {  // 2^-25, half of the smallest denormal
     const std::uint32_t mantissa = (magnitude & 0x7FFFFFU) | 0x800000U;
     const std::uint32_t shift = 126U - (magnitude >> 23);
     const std::uint32_t kept = mantissa >> shift;

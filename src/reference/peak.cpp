@@ -1,11 +1,10 @@
 // Scalar twins of the loops that find a machine's limits.
-#include "src/reference/peak.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "kernels/abi.hpp"
+#include "src/reference/twins.hpp"
 
 namespace spectile::reference {
 

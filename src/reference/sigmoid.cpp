@@ -13,10 +13,10 @@ namespace {
 
 using namespace kernels;
 
-/// Whether this step is the last: what Newton's method leaves grows with the residual times the step.
+/// True if this step is the last: the error after a Newton step grows with the residual times the step.
 bool is_last(float size, const float step[3], float close) {
   // A step of no length stands for one that was not finite.
-  const float length = length_of(step);
+  const float length = magnitude_sum(step);
   return size * length <= close && size <= kSigmoidNear && length > 0.0F;
 }
 
@@ -63,7 +63,7 @@ void refine(float c[3], const Search& search, const SigmoidTable& table) {
   float scale = search.scale;
   float goal[3];
   for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
-  Sums sums = sums_of(c, table);
+  Sums sums = band_sums(c, table);
   float r[3];
   float size = residual(sums, goal, r);
   float part = 1;
@@ -88,10 +88,10 @@ void refine(float c[3], const Search& search, const SigmoidTable& table) {
         goal[k] = search.target[k] * scale;
       }
     }
-    const Sums sums_there = sums_of(trial, table);
+    const Sums sums_there = band_sums(trial, table);
     float r_there[3];
     const float size_there = residual(sums_there, goal, r_there);
-    if (arrived || (size_there < size && length_of(trial) <= search.steep)) {
+    if (arrived || (size_there < size && magnitude_sum(trial) <= search.steep)) {
       std::copy(trial, trial + 3, c);
       std::copy(r_there, r_there + 3, r);
       sums = sums_there;
@@ -106,10 +106,10 @@ void refine(float c[3], const Search& search, const SigmoidTable& table) {
   for (std::size_t k = 0; k < 3; ++k) c[k] = c[k] * root;
 }
 
-/// Whether the coefficients have the target's colour, of which z is the largest component.
+/// True if the coefficients have the target's colour, of which z is the largest component.
 bool is_met(const float c[3], const float target[3], float z, const SigmoidTable& table) {
   float r[3];
-  const float size = residual(sums_of(c, table), target, r);
+  const float size = residual(band_sums(c, table), target, r);
   return size <= std::max(kSigmoidRounding, std::min(kSigmoidUnsolved, z * kSigmoidMet));
 }
 
@@ -168,7 +168,7 @@ bool sigmoid_coefficients(float c[3], const float rgb[3], const SigmoidTable& ta
   } else {
     const float lit[3] = {black ? 0.5F : v[0], black ? 0.5F : v[1], black ? 0.5F : v[2]};
     start(lit, c, table);
-    const Sums sums = sums_of(c, table);
+    const Sums sums = band_sums(c, table);
     float r[3];
     const float size = residual(sums, target, r);
     float step[3];

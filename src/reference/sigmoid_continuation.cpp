@@ -1,4 +1,4 @@
-// The way from a colour's grey to the colour, in one lane, operation by operation as the kernels do it.
+// Continuation toward the grey axis in one lane, operation by operation as the kernels do it.
 #include <algorithm>
 #include <limits>
 
@@ -32,8 +32,8 @@ float sigmoid_continuation(float c[3], const float rgb[3], const SigmoidTable& t
     return 0;
   }
   c[0] = c[1] = 0;
-  float way[3];
-  for (std::size_t k = 0; k < 3; ++k) way[k] = (bright ? 1.0F - rgb[k] : rgb[k]) - grey;
+  float direction[3];
+  for (std::size_t k = 0; k < 3; ++k) direction[k] = (bright ? 1.0F - rgb[k] : rgb[k]) - grey;
   c[2] = (grey - 0.5F) / std::sqrt(grey * (1.0F - grey));
   const float near = std::max(kSigmoidRounding, grey * kContinuationNear);
   const float met = std::max(kSigmoidRounding, std::min(kSigmoidUnsolved, grey * kSigmoidMet));
@@ -50,12 +50,12 @@ float sigmoid_continuation(float c[3], const float rgb[3], const SigmoidTable& t
   for (int i = 0; i < kContinuationSteps; ++i) {
     float trial[3];
     for (std::size_t k = 0; k < 3; ++k) trial[k] = base[k] + length * step[k];
-    const Sums sums = sums_of(trial, table);
+    const Sums sums = band_sums(trial, table);
     float goal[3];
-    for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(next, way[k], grey);
+    for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(next, direction[k], grey);
     float r[3];
     float size = residual(sums, goal, r);
-    const bool usable = length_of(trial) <= steep;
+    const bool usable = magnitude_sum(trial) <= steep;
     const bool end = next == 1.0F;
     const bool there = usable && size <= (end ? met : near);
     if (there && (!end || size < best)) {
@@ -87,7 +87,7 @@ float sigmoid_continuation(float c[3], const float rgb[3], const SigmoidTable& t
     if (onward) {
       ahead = ahead + ahead;
       next = std::min(1.0F, part + ahead);
-      for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(next, way[k], grey);
+      for (std::size_t k = 0; k < 3; ++k) goal[k] = fused(next, direction[k], grey);
       size = residual(sums, goal, r);
       tries = 0;
     }

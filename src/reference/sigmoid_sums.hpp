@@ -34,7 +34,7 @@ inline void add_slopes(Sums& sums, const SigmoidPoint& p, const float* row) {
 }
 
 /// Sums over all bands, run by run, and their derivatives.
-inline Sums sums_of(const float c[3], const kernels::SigmoidTable& table) {
+inline Sums band_sums(const float c[3], const kernels::SigmoidTable& table) {
   Sums sums;
   for (std::size_t first = 0; first < table.bands; first += kernels::kSumRun) {
     float run[3] = {0, 0, 0};
@@ -79,7 +79,7 @@ inline void newton_step(const Sums& sums, const float r[3], float step[3]) {
 }
 
 /// Sum of the magnitudes.
-inline float length_of(const float c[3]) {
+inline float magnitude_sum(const float c[3]) {
   return (std::abs(c[0]) + std::abs(c[1])) + std::abs(c[2]);
 }
 

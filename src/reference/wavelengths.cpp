@@ -1,11 +1,10 @@
 // Scalar twins of the kernels for spectra at single wavelengths.
-#include "src/reference/wavelengths.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "src/reference/exponential.hpp"
 #include "src/reference/sigmoid.hpp"
+#include "src/reference/twins.hpp"
 
 namespace spectile::reference {
 namespace {
@@ -47,11 +46,11 @@ float spread(float u, std::size_t k, std::size_t count) {
 
 }  // namespace
 
-void look_up_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
+void interpolate_even(float* dst, const float* lambda_nm, const EvenTable& table, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) dst[i] = value_at(table, lambda_nm[i]);
 }
 
-void look_up_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
+void interpolate_knots(float* dst, const float* lambda_nm, const KnotTable& table, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) dst[i] = value_at(table, lambda_nm[i]);
 }
 
@@ -98,12 +97,12 @@ void gaussians(float* dst, const float* lambda_nm, const kernels::GaussianLobe* 
   }
 }
 
-void sigmoid_at(float* dst, const float* lambda_nm, const float c[3], float lowest_nm, float highest_nm,
-                float scale, std::size_t n) noexcept {
+void sigmoid_at(float* dst, const float* lambda_nm, const kernels::SigmoidSpectrum& s,
+                std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const float lambda = lambda_nm[i];
-    const float held = lambda < lowest_nm ? lowest_nm : (lambda > highest_nm ? highest_nm : lambda);
-    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(c, (held - 550.0F) / 150.0F) * scale;
+    const float held = lambda < s.lowest_nm ? s.lowest_nm : (lambda > s.highest_nm ? s.highest_nm : lambda);
+    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(s.c, (held - 550.0F) / 150.0F) * s.scale;
   }
 }
 
@@ -131,15 +130,15 @@ void visible_wavelengths(float* const* lambda_nm, float* const* density, const f
   }
 }
 
-void project_wavelengths(float* const dst[3], const float* const* values, const float* const* lambda_nm,
-                         const float* const* density, const EvenTable curves[3], float factor,
-                         std::size_t count, std::size_t n) noexcept {
+void project_wavelengths(float* const dst[3], const kernels::WavelengthRows& samples,
+                         const EvenTable curves[3], float factor, std::size_t n) noexcept {
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
       float sum = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        if (density[k][i] == 0.0F) continue;
-        sum = sum + value_at(curves[c], lambda_nm[k][i]) * (values[k][i] / density[k][i]);
+      for (std::size_t k = 0; k < samples.count; ++k) {
+        const float density = samples.density[k][i];
+        if (density == 0.0F) continue;
+        sum = sum + value_at(curves[c], samples.lambda_nm[k][i]) * (samples.values[k][i] / density);
       }
       dst[c][i] = factor * sum;
     }

@@ -117,16 +117,15 @@ void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, cons
 }
 
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
-                   const float* scale, float* spectra, std::size_t blocks, bool stream) {
+                   const float* scale, float* spectra, std::size_t blocks, bool non_temporal) {
   const std::size_t bands = upsampler.bands().count();
   if (mixes_bases(upsampler)) {
-    kernels.smits_blocks(spectra, c, UpsamplerAccess::table(upsampler), upsampler.lowest(), bands, blocks,
-                         stream);
+    kernels.smits_blocks(spectra, c, {UpsamplerAccess::table(upsampler), bands, upsampler.lowest()}, blocks, non_temporal);
     return;
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;
-  kernels.sigmoid_blocks(spectra, c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, white, bands,
-                         blocks, stream);
+  kernels.sigmoid_blocks(spectra, {c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, bands, white}, blocks,
+                         non_temporal);
 }
 
 }  // namespace spectile::rows

@@ -52,7 +52,7 @@ bool covers_unit_cube(const Upsampler& upsampler);
 
 /// Coefficients to blocks of samples.
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
-                   const float* scale, float* spectra, std::size_t blocks, bool stream);
+                   const float* scale, float* spectra, std::size_t blocks, bool non_temporal);
 
 /// gamut_clip() on a row of `n` lanes, padded to a multiple of 64 with zeros. `lanes_outside` [n], where
 /// asked for, becomes 1 for each of them that is, else 0.

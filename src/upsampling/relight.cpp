@@ -93,14 +93,15 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
   const float* const read[3] = {c[0], c[1], c[2]};
   const Projector& projector = relighter.projector();
   const std::array<float, 9> matrix = color::to_float(relighter.matrix());
+  const kernels::SigmoidSpectra spectra = {read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows,
+                                           projector.bands().count(), false};
   for (std::size_t at = 0; at < n; at += kChunk) {
     const std::size_t lanes = std::min(kChunk, n - at);
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
     const float* const xyz[3] = {to[0], to[1], to[2]};
     solve(kernels, upsampler, in, found, unsolved, lanes);
-    kernels.sigmoid_project(to, read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, false,
-                            ProjectorAccess::weights(projector), projector.bands().count(), lanes);
+    kernels.sigmoid_project(to, spectra, ProjectorAccess::weights(projector), lanes);
     kernels.transform3(to, xyz, matrix.data(), lanes);
   }
 }
@@ -121,8 +122,7 @@ void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& re
     std::uint64_t unsolved = 0;
     solve(kernels, upsampler, in, found, &unsolved, kernels::kLanes);
     expand_blocks(kernels, upsampler, read, found.scale, spectra, 1, false);
-    kernels.project(to[0], to[1], to[2], spectra, ProjectorAccess::weights(projector),
-                    projector.bands().count(), 1);
+    kernels.project(to, spectra, ProjectorAccess::weights(projector), projector.bands().count(), 1);
     kernels.transform3(to, xyz, matrix.data(), kernels::kLanes);
   }
 }

@@ -129,7 +129,8 @@ Result<void> RgbRepresentation::weighted(const Matrix3& matrix, SampledSpectraVi
   for (std::size_t i = 0; i < 9; ++i) weights[i % 3][i / 3] = static_cast<float>(matrix[i]);
   tiles::for_blocks(light.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    table->project(out.c[0] + at, out.c[1] + at, out.c[2] + at, light.data + 3 * at, weights[0], 3, count);
+    float* const dst[3] = {out.c[0] + at, out.c[1] + at, out.c[2] + at};
+    table->project(dst, light.data + 3 * at, weights[0], 3, count);
   });
   return {};
 }

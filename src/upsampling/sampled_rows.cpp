@@ -171,20 +171,20 @@ void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* 
                               const float* scale, void* const* out, bool half, std::size_t n) const {
   if (sigmoid_) {
     const auto kernel = half ? kernels.sigmoid_rows_half : kernels.sigmoid_rows_float;
-    kernel(out, c, scale, table_.data(), white_, count_, n);
+    kernel(out, {c, scale, table_.data(), count_, white_}, n);
     return;
   }
   const auto kernel = half ? kernels.smits_rows_half : kernels.smits_rows_float;
   const float lowest = half ? std::max(lowest_, -kernels::kHalfMax) : lowest_;
-  kernel(out, c, table_.data(), lowest, count_, n);
+  kernel(out, c, {table_.data(), count_, lowest}, n);
 }
 
 void SampledRows::expand_blocks(const kernels::KernelTable& kernels, const float* const c[3],
                                 const float* scale, float* spectra, std::size_t blocks) const {
   if (sigmoid_) {
-    kernels.sigmoid_blocks(spectra, c, scale, table_.data(), white_, count_, blocks, false);
+    kernels.sigmoid_blocks(spectra, {c, scale, table_.data(), count_, white_}, blocks, false);
   } else {
-    kernels.smits_blocks(spectra, c, table_.data(), lowest_, count_, blocks, false);
+    kernels.smits_blocks(spectra, c, {table_.data(), count_, lowest_}, blocks, false);
   }
 }
 

@@ -86,14 +86,13 @@ void minimum_that_keeps_nan(float* dst, const float* spectra, std::size_t bands,
   }
 }
 
-void project_without_its_last_band(float* x, float* y, float* z, const float* spectra, const float* weights,
+void project_without_its_last_band(float* const dst[3], const float* spectra, const float* weights,
                                    std::size_t bands, std::size_t blocks) noexcept {
   for (std::size_t i = 0; i < blocks * kernels::kLanes; ++i) {
-    float* const out[3] = {x, y, z};
     for (std::size_t k = 0; k < 3; ++k) {
-      out[k][i] = 0;
+      dst[k][i] = 0;
       for (std::size_t b = 0; b + 1 < bands; ++b) {
-        out[k][i] += weights[4 * b + k] *
+        dst[k][i] += weights[4 * b + k] *
                      spectra[(i / kernels::kLanes * bands + b) * kernels::kLanes + i % kernels::kLanes];
       }
     }
@@ -109,24 +108,22 @@ void half_rounded_down(std::uint16_t* dst, const float* src, std::size_t n) noex
   }
 }
 
-void film_add_without_rests(std::int64_t* const* tiles, std::size_t offset, const kernels::FilmGrid& grid,
-                            const kernels::FilmEntries& entries, const float* quads, std::size_t count,
-                            std::size_t limbs) noexcept {
-  reference::table.film_add(tiles, offset, grid, entries, quads, count, limbs);
+void film_add_without_rests(const kernels::FilmSums& to, const kernels::FilmGrid& grid,
+                            const kernels::FilmEntries& entries, const float* quads,
+                            std::size_t count) noexcept {
+  reference::table.film_add(to, grid, entries, quads, count);
   for (std::size_t i = 0; i < entries.count; ++i) {
     std::int64_t* const pixel =
-        tiles[entries.tile] + offset + static_cast<std::size_t>(entries.address[i]) * limbs;
-    std::fill_n(pixel + 4, 4, 0);
+        to.tiles[entries.tile] + to.offset + static_cast<std::size_t>(entries.address[i]) * to.limbs;
+    std::fill_n(pixel + kernels::kFilmQuadRest, 4, 0);
   }
 }
 
-void film_place_one_to_the_right(std::int32_t* address, std::int32_t tiles[2],
-                                 std::uint64_t counts[kernels::kFilmReasons],
-                                 const kernels::FilmWindow& window, const float* x, const float* y,
-                                 const float* weight, const std::int32_t* reasons, std::size_t n) noexcept {
-  reference::table.film_place(address, tiles, counts, window, x, y, weight, reasons, n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (address[i] >= 0 && x[i] == 1.0F) ++address[i];
+void film_place_one_to_the_right(const kernels::FilmPlaces& out, const kernels::FilmWindow& window,
+                                 const kernels::FilmPositions& samples) noexcept {
+  reference::table.film_place(out, window, samples);
+  for (std::size_t i = 0; i < samples.n; ++i) {
+    if (out.address[i] >= 0 && samples.x[i] == 1.0F) ++out.address[i];
   }
 }
 
@@ -136,10 +133,9 @@ void scan_rgb_that_takes_minus_zero_for_negative(kernels::RgbScan* scan, const f
   for (std::size_t i = 0; i < n; ++i) scan->negative += rgb[0][i] == 0 && std::signbit(rgb[0][i]) ? 1 : 0;
 }
 
-void sigmoid_project_off_by_a_millionth(float* const dst[3], const float* const c[3], const float* scale,
-                                        const float* rows, bool white, const float* weights,
-                                        std::size_t bands, std::size_t n) noexcept {
-  reference::table.sigmoid_project(dst, c, scale, rows, white, weights, bands, n);
+void sigmoid_project_off_by_a_millionth(float* const dst[3], const kernels::SigmoidSpectra& spectra,
+                                        const float* weights, std::size_t n) noexcept {
+  reference::table.sigmoid_project(dst, spectra, weights, n);
   for (std::size_t i = 0; i < n; ++i) dst[1][i] *= 1.000004F;
 }
 

@@ -234,7 +234,8 @@ TEST_P(Kernels, WeightedSumsGiveTheReferencesBits) {
           t.weighted_sum(dst, a.data(), weights.data(), bands, blocks);
         });
         expect_same(3 * n, [&](const KernelTable& t, float* dst) {
-          t.project(dst, dst + n, dst + 2 * n, a.data(), weights.data(), bands, blocks);
+          float* const out[3] = {dst, dst + n, dst + 2 * n};
+          t.project(out, a.data(), weights.data(), bands, blocks);
         });
       }
     }

@@ -48,6 +48,11 @@ struct Batch {
     for (std::size_t i = 4; i < kSamples; i += 29) position_y[i] = strange[i];
     density.rows[count - 1][2] = -0.5F;
   }
+  kernels::FilmSamples samples() const {
+    return {radiance.pointers.data(), lambda.pointers.data(),
+            density.pointers.data(),  weight.data(),
+            radiance.pointers.size(), kSamples};
+  }
   Rows radiance, lambda, density;
   Floats weight, position_x, position_y;
 };
@@ -96,10 +101,10 @@ TEST_P(FilmKernels, WavelengthsWeighAsInTheReference) {
           for (const bool luminance : {false, true}) {
             const auto run = [&](const KernelTable& t) {
               Weighed out;
-              t.film_weigh_wavelengths(out.quads.data(), luminance, out.reasons.data(), table, limits,
-                                       b.radiance.pointers.data(), b.lambda.pointers.data(),
-                                       b.density.pointers.data(), weighted ? b.weight.data() : nullptr,
-                                       1 / static_cast<float>(count) / 10000, count, kSamples);
+              kernels::FilmSamples samples = b.samples();
+              if (!weighted) samples.weight = nullptr;
+              t.film_weigh_wavelengths({out.quads.data(), out.reasons.data(), luminance}, samples, table,
+                                       limits, 1 / static_cast<float>(count) / 10000);
               return out;
             };
             run(k()).expect_same(run(ref()));
@@ -118,16 +123,15 @@ TEST_P(FilmKernels, BandsWeighAsInTheReference) {
       for (const kernels::FilmLimits& limits : {kLoose, kTight}) {
         const auto run = [&](const KernelTable& t) {
           Weighed out;
-          t.film_weigh_bands(out.quads.data(), true, out.reasons.data(), weights.data(), limits,
-                             b.radiance.pointers.data(), b.weight.data(), bands, kSamples);
+          t.film_weigh_bands({out.quads.data(), out.reasons.data(), true}, b.samples(), weights.data(),
+                             limits);
           return out;
         };
         run(k()).expect_same(run(ref()));
         const std::size_t stride = (bands + 3) / 4 * 4;
         const auto quads = [&](const KernelTable& t, Floats& to) {
           std::vector<std::int32_t> reasons = run(ref()).reasons;
-          t.film_band_quads(to.data(), stride, reasons.data(), limits, b.radiance.pointers.data(),
-                            b.weight.data(), bands, kSamples);
+          t.film_band_quads(to.data(), stride, reasons.data(), b.samples(), limits);
           return reasons;
         };
         Floats got(stride * kSamples);
@@ -156,9 +160,7 @@ TEST_P(FilmKernels, HitsAreTheReferences) {
         const auto run = [&](const KernelTable& t, std::vector<std::int32_t>& bands, Floats& hits) {
           std::vector<std::int32_t> reasons(kSamples, 0);
           bands.assign(count * kSamples, 77);
-          t.film_hits(bands.data(), hits.data(), reasons.data(), table, limits, b.radiance.pointers.data(),
-                      b.lambda.pointers.data(), b.density.pointers.data(), b.weight.data(), 1.0F / 512, count,
-                      kSamples);
+          t.film_hits({bands.data(), hits.data(), reasons.data()}, b.samples(), table, limits, 1.0F / 512);
           return reasons;
         };
         std::vector<std::int32_t> got_bands;
@@ -193,8 +195,8 @@ TEST_P(FilmKernels, PlacesAreTheReferences) {
       const auto run = [&](const KernelTable& t, std::array<std::uint64_t, kFilmReasons>& counts,
                            std::array<std::int32_t, 2>& tiles) {
         std::vector<std::int32_t> address(kSamples, 0);
-        t.film_place(address.data(), tiles.data(), counts.data(), window, b.position_x.data(),
-                     b.position_y.data(), b.weight.data(), reasons.data(), n);
+        t.film_place({address.data(), tiles.data(), counts.data()}, window,
+                     {b.position_x.data(), b.position_y.data(), b.weight.data(), reasons.data(), n});
         return address;
       };
       std::array<std::uint64_t, kFilmReasons> got{};
@@ -299,7 +301,7 @@ TEST_P(FilmSums, QuadsAddUpAsInTheReference) {
     for (std::size_t i = 3; i < quads.size(); i += 4) quads[i] = std::ldexp(quads[i], -16);
     expect_same((8 * count + 8) * kFilmTilePixels,
                 [&](const KernelTable& t, auto* tiles, const FilmEntries& e) {
-                  t.film_add(tiles, 8, grid, e, quads.data(), count, 8 * count);
+                  t.film_add({tiles, 8, 8 * count}, grid, e, quads.data(), count);
                 });
   }
 }
@@ -312,7 +314,7 @@ TEST_P(FilmSums, HitsAddUpAsInTheReference) {
   for (std::size_t i = 0; i < kWavelengths * kSamples; ++i)
     band.push_back(static_cast<std::int32_t>(i % (kBands + 1)) - 1);
   expect_same(4 * kBands * kFilmTilePixels, [&](const KernelTable& t, auto* tiles, const FilmEntries& e) {
-    t.film_add_hits(tiles, 0, grid, e, band.data(), hits.data(), kWavelengths, kSamples, kBands);
+    t.film_add_hits({tiles, 0, 4 * kBands}, grid, e, {band.data(), hits.data(), kWavelengths, kSamples});
   });
 }
 
@@ -325,10 +327,11 @@ TEST_P(FilmSums, MomentsAndCountsAddUpAsInTheReference) {
     quads[4 * i + 1] *= quads[4 * i + 3] * 0x1p-16F;
   }
   expect_same(8 * kFilmTilePixels, [&](const KernelTable& t, auto* tiles, const FilmEntries& e) {
-    t.film_add_moments(tiles, 0, moments, e, quads.data());
+    t.film_add_moments({tiles, 0, 8}, moments, e, quads.data());
   });
-  expect_same(kFilmTilePixels,
-              [&](const KernelTable& t, auto* tiles, const FilmEntries& e) { t.film_count(tiles, 0, e); });
+  expect_same(kFilmTilePixels, [&](const KernelTable& t, auto* tiles, const FilmEntries& e) {
+    t.film_count({tiles, 0, 1}, e);
+  });
 }
 
 SPECTILE_FOR_EVERY_ISA(FilmKernels);

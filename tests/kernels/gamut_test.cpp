@@ -1,4 +1,4 @@
-// The gamut's limit and the folded Smits mixture: every instruction set gives the reference's bits, also in
+// Gamut clipping and the folded Smits mixture: every instruction set gives the reference's bits, also in
 // place.
 #include "tests/kernels/kernel_fixture.hpp"
 
@@ -27,14 +27,14 @@ Floats telling_colors(std::size_t n, std::uint32_t seed) {
 
 class GamutKernels : public KernelTest {
  protected:
-  struct Limited {
+  struct Clipped {
     Floats rgb;
     std::vector<std::uint64_t> moved;
   };
-  static Limited limited(const KernelTable& t, const Floats& rgb, const float weights[3], float low,
+  static Clipped clipped(const KernelTable& t, const Floats& rgb, const float weights[3], float low,
                          float high) {
     const std::size_t n = rgb.size() / 3;
-    Limited out{Floats(std::span(rgb.data(), rgb.size())),
+    Clipped out{Floats(std::span(rgb.data(), rgb.size())),
                 std::vector<std::uint64_t>(n / kLanes, 0x5A5A5A5A5A5A5A5AU)};
     float* const planes[3] = {out.rgb.data(), out.rgb.data() + n, out.rgb.data() + 2 * n};
     t.gamut_clip(planes, weights, low, high, out.moved.data(), n);
@@ -42,15 +42,15 @@ class GamutKernels : public KernelTest {
   }
 };
 
-TEST_P(GamutKernels, LimitsAreTheReferencesForEveryKindOfColour) {
+TEST_P(GamutKernels, ClipsAreTheReferencesForEveryKindOfColor) {
   const float limits[][2] = {{0, 1}, {0, kInf}, {-kInf, kInf}, {0.25F, 0.25F}, {-0.5F, 2.0F}, {kTiny, kMost}};
   const Floats arbitrary = arbitrary_floats(3, 1);
   for (const std::size_t lanes : kSizes) {
     const Floats rgb = telling_colors(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
     for (const auto& [low, high] : limits) {
       for (const float* weights : {kLuminance, arbitrary.data()}) {
-        const Limited got = limited(k(), rgb, weights, low, high);
-        const Limited want = limited(ref(), rgb, weights, low, high);
+        const Clipped got = clipped(k(), rgb, weights, low, high);
+        const Clipped want = clipped(ref(), rgb, weights, low, high);
         ASSERT_TRUE(same_bits(got.rgb, want.rgb)) << lanes << " lanes, " << low << " to " << high;
         ASSERT_EQ(got.moved, want.moved) << lanes << " lanes, " << low << " to " << high;
       }
@@ -58,10 +58,10 @@ TEST_P(GamutKernels, LimitsAreTheReferencesForEveryKindOfColour) {
   }
 }
 
-TEST_P(GamutKernels, ColoursInsideKeepTheirBitsAndOthersHaveTheirBit) {
+TEST_P(GamutKernels, ColorsInsideKeepTheirBitsAndOthersHaveTheirBit) {
   const std::size_t n = 4160;
   const Floats rgb = plain_floats(3 * n, 2, -0.02F, 1.02F);
-  const Limited got = limited(k(), rgb, kLuminance, 0, 1);
+  const Clipped got = clipped(k(), rgb, kLuminance, 0, 1);
   for (std::size_t i = 0; i < n; ++i) {
     bool outside = false;
     for (std::size_t c = 0; c < 3; ++c) outside = outside || rgb[c * n + i] < 0 || rgb[c * n + i] > 1;
@@ -100,7 +100,7 @@ TEST_P(GamutKernels, FoldsAreTheReferencesAlsoInPlace) {
 }
 
 TEST_P(GamutKernels, AFoldIsTheProjectionOfTheSpectra) {
-  // Three rows of the table are three bands: the fold is smits_blocks with nothing limited.
+  // Three rows of the table are three bands: the fold is smits_blocks with nothing clamped.
   const Floats table = plain_floats(3 * kSmitsRow, 6);
   const std::size_t n = 1024;
   const Floats rgb = plain_floats(3 * n, 7);
@@ -109,7 +109,7 @@ TEST_P(GamutKernels, AFoldIsTheProjectionOfTheSpectra) {
   Floats blocks(3 * n);
   float* const out[3] = {folded.data(), folded.data() + n, folded.data() + 2 * n};
   k().smits_fold(out, in, table.data(), n);
-  k().smits_blocks(blocks.data(), in, table.data(), -kInf, 3, n / kLanes, false);
+  k().smits_blocks(blocks.data(), in, {table.data(), 3, -kInf}, n / kLanes, false);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t b = 0; b < 3; ++b) {
       ASSERT_TRUE(same_bits(folded[b * n + i], blocks[(i / kLanes * 3 + b) * kLanes + i % kLanes])) << i;

@@ -35,7 +35,7 @@ TEST_P(PeakKernels, LoadsSeeEveryNumber) {
   }
 }
 
-TEST_P(PeakKernels, StoresAndCopiesReachEveryNumber) {
+TEST_P(PeakKernels, StoresAndCopiesFillEveryNumber) {
   for (const bool non_temporal : {false, true}) {
     std::fill_n(mine_.data(), kCount, -1.0F);
     k().peak_store(mine_.data(), 2.5F, kCount, non_temporal);

@@ -169,11 +169,12 @@ TEST_P(SigmoidKernels, BlocksAreTheReferencesHoweverStoredAndScaled) {
         for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
           for (const bool white : {false, true}) {
             Floats want(n * bands);
-            ref().sigmoid_blocks(want.data(), c, scale, rows, white, bands, blocks, false);
-            for (const bool stream : {false, true}) {
+            const kernels::SigmoidSpectra spectra = {c, scale, rows, bands, white};
+            ref().sigmoid_blocks(want.data(), spectra, blocks, false);
+            for (const bool non_temporal : {false, true}) {
               Floats got(n * bands);
-              k().sigmoid_blocks(got.data(), c, scale, rows, white, bands, blocks, stream);
-              ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes, " << stream;
+              k().sigmoid_blocks(got.data(), spectra, blocks, non_temporal);
+              ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes, " << non_temporal;
             }
           }
         }
@@ -208,8 +209,9 @@ TEST_P(SigmoidKernels, FusedMultiplyAddsRoundOnce) {
   const float* const planes[3] = {c.data(), c.data() + kLanesHere, c.data() + 2 * kLanesHere};
   Floats got(kLanesHere * kBands);
   Floats want(kLanesHere * kBands);
-  k().sigmoid_blocks(got.data(), planes, nullptr, rows.data(), false, kBands, kLanesHere / kLanes, false);
-  ref().sigmoid_blocks(want.data(), planes, nullptr, rows.data(), false, kBands, kLanesHere / kLanes, false);
+  const kernels::SigmoidSpectra spectra = {planes, nullptr, rows.data(), kBands};
+  k().sigmoid_blocks(got.data(), spectra, kLanesHere / kLanes, false);
+  ref().sigmoid_blocks(want.data(), spectra, kLanesHere / kLanes, false);
   EXPECT_TRUE(same_bits(got, want));
   EXPECT_EQ(got[0], 0.5F);
 }
@@ -229,7 +231,7 @@ void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t 
     std::vector<void*> rows(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = memory[run].data() + 35 + b * stride;
     const KernelTable& t = run == 0 ? k() : ref();
-    (t.*kernel)(rows.data(), planes, scale, sigmoid_table(bands).rows, white, bands, n);
+    (t.*kernel)(rows.data(), {planes, scale, sigmoid_table(bands).rows, bands, white}, n);
   }
   for (std::size_t at = 0; at < memory[0].size(); ++at) {
     const bool in_row = at >= 35 && (at - 35) % stride < bytes && (at - 35) / stride < bands;
@@ -279,8 +281,8 @@ TEST_P(SigmoidKernels, ProjectionsAreTheReferencesAlsoInPlace) {
           float* const out[3] = {dst.data(), dst.data() + n, dst.data() + 2 * n};
           const float* const from[3] = {in_place ? out[0] : in[0], in_place ? out[1] : in[1],
                                         in_place ? out[2] : in[2]};
-          t.sigmoid_project(out, from, scale, sigmoid_table(bands).rows, lanes % 2 == 0, weights.data(),
-                            bands, n);
+          t.sigmoid_project(out, {from, scale, sigmoid_table(bands).rows, bands, lanes % 2 == 0},
+                            weights.data(), n);
         };
         Floats want(3 * n);
         Floats got(3 * n);

@@ -68,7 +68,7 @@ class SmitsKernels : public KernelTest {
         ASSERT_EQ(reinterpret_cast<std::uintptr_t>(rows[band]) % 2, 1U);
       }
       const KernelTable& t = run == 0 ? k() : ref();
-      (t.*kernel)(rows.data(), planes, table.data(), lowest, bands, n);
+      (t.*kernel)(rows.data(), planes, {table.data(), bands, lowest}, n);
       for (std::size_t band = 0; band < bands; ++band) {
         const auto* row = static_cast<const unsigned char*>(rows[band]);
         for (std::size_t i = 1; i < kGuard - 1; ++i) {
@@ -105,11 +105,12 @@ TEST_P(SmitsKernels, BlocksGiveTheReferencesBitsHoweverStored) {
         const float* const planes[3] = {rgb.data(), rgb.data() + n, rgb.data() + 2 * n};
         for (const float lowest : {0.0F, -kInf}) {
           Floats want(n * bands);
-          ref().smits_blocks(want.data(), planes, table.data(), lowest, bands, blocks, false);
-          for (const bool stream : {false, true}) {
+          ref().smits_blocks(want.data(), planes, {table.data(), bands, lowest}, blocks, false);
+          for (const bool non_temporal : {false, true}) {
             Floats got(n * bands);
-            k().smits_blocks(got.data(), planes, table.data(), lowest, bands, blocks, stream);
-            ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes, stream " << stream;
+            k().smits_blocks(got.data(), planes, {table.data(), bands, lowest}, blocks, non_temporal);
+            ASSERT_TRUE(same_bits(got, want))
+                << bands << " bands, " << lanes << " lanes, non-temporal " << non_temporal;
           }
         }
       }
@@ -155,7 +156,7 @@ TEST(ReferenceSmits, HalfRowsStayFiniteForFiniteSamples) {
   const float row[kSmitsRow] = {1, 1, 1, 1, 1, 1, 1, 0};
   std::uint16_t out = 0;
   void* rows[1] = {&out};
-  reference::table.smits_rows_half(rows, planes, row, 0.0F, 1, 1);
+  reference::table.smits_rows_half(rows, planes, {row, 1, 0.0F}, 1);
   EXPECT_EQ(out, 0x7BFFU);
 }
 

@@ -35,14 +35,15 @@ TEST_P(WavelengthKernels, LookUpsAreTheReferences) {
   for (const Floats* table : {&pairs, &plain}) {
     for (const std::int32_t intervals : {1, 2, 470}) {
       const kernels::EvenTable even = {table->data(), 360, 1, intervals};
-      expect_same([&](const auto& t, float* out) { t.look_up_even(out, lambda.data(), even, kAll); }, "even");
+      expect_same([&](const auto& t, float* out) { t.interpolate_even(out, lambda.data(), even, kAll); },
+                  "even");
     }
   }
   const float knots[] = {400, 410, 410, 455.5F, 600, 700, kInf, kInf, kInf, kInf};
   const std::int32_t start[] = {0, 2, 3, 4};
   for (const bool held : {false, true}) {
     const kernels::KnotTable table = {knots, plain.data(), 6, start, 4.0F / 300.0F, 4, 2, held};
-    expect_same([&](const auto& t, float* out) { t.look_up_knots(out, lambda.data(), table, kAll); },
+    expect_same([&](const auto& t, float* out) { t.interpolate_knots(out, lambda.data(), table, kAll); },
                 "knots");
   }
 }
@@ -56,10 +57,9 @@ TEST_P(WavelengthKernels, FormulasAreTheReferences) {
   const kernels::GaussianLobe lobes[] = {{1, 550, 0.1, 0.02}, {-0.5, 600, 1e3, 1e-3}, {3, 0, 1, 1}};
   expect_same([&](const auto& t, float* out) { t.gaussians(out, lambda.data(), lobes, 3, kAll); },
               "gaussians");
-  const float c[3] = {-3, 2, 0.5F};
-  expect_same(
-      [&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), c, 402.5F, 697.5F, 3, kAll); },
-      "sigmoid");
+  const kernels::SigmoidSpectrum spectrum = {{-3, 2, 0.5F}, 402.5F, 697.5F, 3};
+  expect_same([&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), spectrum, kAll); },
+              "sigmoid");
 }
 
 TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
@@ -97,7 +97,7 @@ TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
       kernels::EvenTable curves[3];
       for (std::size_t c = 0; c < 3; ++c) curves[c] = {pairs.data() + c * 2 * 470, 360, 1, 470};
       float* const dst[3] = {out.data(), out.data() + kAll, out.data() + 2 * kAll};
-      t.project_wavelengths(dst, rows[0], rows[1], rows[2], curves, 0.2F, kCount, kAll);
+      t.project_wavelengths(dst, {rows[0], rows[1], rows[2], kCount}, curves, 0.2F, kAll);
     };
     Floats sums(3 * kAll);
     Floats expected(3 * kAll);

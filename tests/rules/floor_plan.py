@@ -81,8 +81,6 @@ SIZE_EXEMPT = "src/data src/data/*"  # published tables, each as long as its sou
 # --- not yet in order ------------------------------------------------------------------------------------------------------
 PENDING_EDGES = set()
 PENDING_FILES = {
-    "lines": "kernels/abi.hpp kernels/sigmoid_search.inl",
-    "files": "kernels",
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
-# The kernels' objects define nothing that another unit could link to, but for their tables, and use nothing of the
-# C++ runtime. usage: kernel_symbols.sh NM OBJECT...
+# Each of the kernels' objects defines one table of its instruction set and nothing else that another unit could link to,
+# and uses nothing of the C++ runtime; the unit that lists the tables uses those of its own instruction set alone.
+# usage: kernel_symbols.sh NM OBJECT...
 set -uo pipefail
 nm=$1
 shift
 bad=0
 for object in "$@"; do
-  # Defined: anything global or weak that is not the table, nor a constant that is the same in every unit.
-  defined=$("$nm" -C --defined-only "$object" | awk '$2 ~ /[A-Zuvw]/ { $1=""; $2=""; print }' |
-    grep -vE '^ *spectile::kernels::(sse42|avx2|avx512|neon|k(Exp|Atanh)Series)$|__odr_asan\.' || true)
-  # Undefined: only memory functions, the stack protector and sanitizers.
-  undefined=$("$nm" --undefined-only "$object" | awk '{ print $NF }' |
-    grep -vE '^(memcpy|memset|memmove|__stack_chk_fail|_GLOBAL_OFFSET_TABLE_|__(asan|ubsan|tsan|sanitizer)_.*)$' || true)
-  tables=$("$nm" -C --defined-only "$object" | grep -cE 'spectile::kernels::(sse42|avx2|avx512|neon)$' || true)
-  [ -z "$defined" ] || { echo "$object defines for others:"$'\n'"$defined"; bad=1; }
+  defined=$("$nm" -C --defined-only "$object" | awk '$2 ~ /[A-Zuvw]/ { $1=""; $2=""; print }' | sed 's/^ *//')
+  table=$(grep -E '^spectile::kernels::(sse42|avx2|avx512|neon)::[a-z]+$' <<<"$defined" || true)
+  # Beside the table: constants that are the same in every unit.
+  others=$(grep -vE '^(spectile::kernels::((sse42|avx2|avx512|neon)::[a-z]+|k(Exp|Atanh)Series)|__odr_asan\..*|)$' \
+    <<<"$defined" || true)
+  # Undefined: only memory functions, the stack protector, sanitizers, and tables of the same instruction set.
+  undefined=$("$nm" -C --undefined-only "$object" | sed 's/^ *[Uuvw] *//' |
+    grep -vE '^(memcpy|memset|memmove|__stack_chk_fail|_GLOBAL_OFFSET_TABLE_|__(asan|ubsan|tsan|sanitizer)_.*)$' |
+    grep -vE "^${table%::*}::(arithmetic|color|upsampling|wavelengths|film)$" || true)
+  [ -z "$others" ] || { echo "$object defines for others:"$'\n'"$others"; bad=1; }
   [ -z "$undefined" ] || { echo "$object needs from others:"$'\n'"$undefined"; bad=1; }
-  [ "$tables" -eq 1 ] || { echo "$object has $tables tables"; bad=1; }
+  [ "$(grep -c . <<<"$table")" -eq 1 ] || { echo "$object has other than one table: $table"; bad=1; }
 done
 exit $bad

@@ -204,7 +204,10 @@ void copy_weights(State& s) {
   for (std::int64_t* const tile : s.tiles) {
     for (std::size_t q = 0; tile != nullptr && q < s.layout.quads * kernels::kFilmTilePixels; ++q) {
       const std::size_t first = q - q % s.layout.quads;
-      for (const std::size_t limb : {3U, 7U}) tile[8 * q + limb] = tile[8 * first + limb];
+      for (const std::size_t limb :
+           {kernels::kFilmQuadWeight, kernels::kFilmQuadWeight + kernels::kFilmQuadRest}) {
+        tile[kernels::kFilmQuadLimbs * q + limb] = tile[kernels::kFilmQuadLimbs * first + limb];
+      }
     }
   }
 }

@@ -252,7 +252,7 @@ Difference ciede2000(const std::array<double, 3>& xyz_a, const std::array<double
     out.size =
         std::max(out.size, static_cast<double>(std::max({std::abs(v.l), std::abs(v.a), std::abs(v.b)})));
   }
-  // What is a grey but for a rounding has any hue; of opposite hues the mean is on either side.
+  // A grey but for a rounding has any hue; of opposite hues the mean is on either side.
   const long double least = std::min(cx, cy);
   const bool grey = least > 0 && least < 1e-5L * std::max<long double>(1, out.size);
   const bool opposite = dot < 0 && std::abs(cross) < 1e-9L * cx * cy;

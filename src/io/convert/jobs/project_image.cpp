@@ -73,8 +73,8 @@ class ProjectJob : public io::ColorJob {
         kernels().weighted_sum(rows[0] + at, spectra, ProjectorAccess::luminance_weights(projector_), bands,
                                count);
       } else {
-        kernels().project(rows[0] + at, rows[1] + at, rows[2] + at, spectra,
-                          ProjectorAccess::weights(projector_), bands, count);
+        float* const dst[3] = {rows[0] + at, rows[1] + at, rows[2] + at};
+        kernels().project(dst, spectra, ProjectorAccess::weights(projector_), bands, count);
       }
     }
     if (options_.target == ColorTarget::kLuminance) {

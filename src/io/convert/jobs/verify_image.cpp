@@ -153,8 +153,8 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     source.block(kernels, strip, line, at, block);
     const auto run = [&](const kernels::KernelTable& table, float* out) {
-      table.project(out, out + kLanesPerBlock, out + 2 * kLanesPerBlock, block,
-                    ProjectorAccess::weights(projector), bands, 1);
+      float* const dst[3] = {out, out + kLanesPerBlock, out + 2 * kLanesPerBlock};
+      table.project(dst, block, ProjectorAccess::weights(projector), bands, 1);
     };
     run(kernels, ours);
     run(reference::table, expected);

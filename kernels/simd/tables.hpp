@@ -1,7 +1,7 @@
 // Tables in registers and in memory: the permute of a Smits row, and gathers.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

@@ -1,5 +1,5 @@
-// The architecture alias and the seams that xsimd lacks everywhere: streaming store, maxima with a stated
-// operand order, fused multiply-add. Those of some kernels only are in simd_convert.hpp and simd_tables.hpp.
+// The vectors of a unit's instruction set and the seams that xsimd lacks: streaming stores, minima and maxima
+// with a stated operand order, fused multiply-add. Those of some kernels only are in the other files here.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@
 #include <arm_neon.h>
 #endif
 
-#include "kernels/abi.hpp"
+#include "kernels/abi/lanes.hpp"
+#include "kernels/simd/isa.hpp"
 
 namespace spectile::kernels {
 
@@ -25,8 +26,6 @@ using Arch = xsimd::avx2;
 using Arch = xsimd::sse4_2;
 #elif defined(SPECTILE_KERNEL_NEON)
 using Arch = xsimd::neon64;
-#else
-#error "compile with one of SPECTILE_KERNEL_AVX512, _AVX2, _SSE42, _NEON"
 #endif
 
 // Internal linkage throughout: a function of one instruction set must never be what another one's caller
@@ -40,7 +39,7 @@ using U32 = xsimd::batch<std::uint32_t, Arch>;
 using U64 = xsimd::batch<std::uint64_t, Arch>;
 using Mask = xsimd::batch_bool<float, Arch>;
 
-inline constexpr std::size_t kWidth = F32::size;
+static_assert(kWidth == F32::size);
 // Vectors of a block held in registers at once: 4 of 32 registers each on AVX-512, 2 of 16 elsewhere.
 inline constexpr std::size_t kGroup = kWidth == 16 ? 4 : 2;
 static_assert(kLanes % (kWidth * kGroup) == 0);

@@ -1,7 +1,8 @@
 // Quads: four floats of one sample, whatever the register's width, and the limbs that they are added to.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/abi/film.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 inline constexpr std::size_t kQuads = kWidth / 4;
 
 /// The last component of each.
-inline Mask last_of_quads() {
+inline Mask quad_weights() {
   alignas(64) static constexpr float kPlace[16] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   return F32::load_aligned(kPlace) > F32(0.0F);
 }
@@ -47,7 +48,7 @@ inline F32 spread_over_quads(const float* p) {
   const __m512i places = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
   return _mm512_permutexvar_ps(places, _mm512_castps128_ps512(_mm_loadu_ps(p)));
 }
-inline F32 largest_of_three(F32 v) {
+inline F32 max_of_three(F32 v) {
   const __m512 most = _mm512_max_ps(v, _mm512_permute_ps(v, 0xC9));
   return _mm512_max_ps(most, _mm512_permute_ps(v, 0xD2));
 }
@@ -73,7 +74,7 @@ inline F32 spread_over_quads(const float* p) {
   const __m128 pair = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
   return _mm256_permutevar8x32_ps(_mm256_castps128_ps256(pair), _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
 }
-inline F32 largest_of_three(F32 v) {
+inline F32 max_of_three(F32 v) {
   const __m256 most = _mm256_max_ps(v, _mm256_permute_ps(v, 0xC9));
   return _mm256_max_ps(most, _mm256_permute_ps(v, 0xD2));
 }
@@ -81,7 +82,7 @@ inline F32 largest_of_three(F32 v) {
 inline F32 spread_over_quads(const float* p) {
   return _mm_set1_ps(*p);
 }
-inline F32 largest_of_three(F32 v) {
+inline F32 max_of_three(F32 v) {
   const __m128 most = _mm_max_ps(v, _mm_shuffle_ps(v, v, 0xC9));
   return _mm_max_ps(most, _mm_shuffle_ps(v, v, 0xD2));
 }
@@ -89,7 +90,7 @@ inline F32 largest_of_three(F32 v) {
 inline F32 spread_over_quads(const float* p) {
   return vdupq_n_f32(*p);
 }
-inline F32 largest_of_three(F32 v) {
+inline F32 max_of_three(F32 v) {
   const float32x4_t all = v;
   const float32x4_t second = vdupq_n_f32(vgetq_lane_f32(all, 1));
   const float32x4_t third = vdupq_n_f32(vgetq_lane_f32(all, 2));
@@ -174,7 +175,7 @@ inline Quad quad_clamped(Quad v, Quad size, float maximum) {
 
 #if defined(__x86_64__)
 using Double2 = __m128d;
-using Steps2 = __m128i;
+using Int2 = __m128i;
 inline Double2 double2_load(const double* p) {
   return _mm_loadu_pd(p);
 }
@@ -191,10 +192,10 @@ inline Double2 double2_subtract(Double2 a, Double2 b) {
   return _mm_sub_pd(a, b);
 }
 /// The bits of `sum` less those of `magic`.
-inline Steps2 steps_between(Double2 sum, Double2 magic) {
+inline Int2 steps_between(Double2 sum, Double2 magic) {
   return _mm_sub_epi64(_mm_castpd_si128(sum), _mm_castpd_si128(magic));
 }
-inline void add_steps(std::int64_t* p, Steps2 v) {
+inline void add_steps(std::int64_t* p, Int2 v) {
   auto* const at = reinterpret_cast<__m128i*>(p);
   _mm_store_si128(at, _mm_add_epi64(_mm_load_si128(at), v));
 }
@@ -206,7 +207,7 @@ inline void prefetch(const void* p) {
 }
 #else
 using Double2 = float64x2_t;
-using Steps2 = int64x2_t;
+using Int2 = int64x2_t;
 inline Double2 double2_load(const double* p) {
   return vld1q_f64(p);
 }
@@ -223,10 +224,10 @@ inline Double2 double2_subtract(Double2 a, Double2 b) {
   return vsubq_f64(a, b);
 }
 /// The bits of `sum` less those of `magic`.
-inline Steps2 steps_between(Double2 sum, Double2 magic) {
+inline Int2 steps_between(Double2 sum, Double2 magic) {
   return vsubq_s64(vreinterpretq_s64_f64(sum), vreinterpretq_s64_f64(magic));
 }
-inline void add_steps(std::int64_t* p, Steps2 v) {
+inline void add_steps(std::int64_t* p, Int2 v) {
   vst1q_s64(p, vaddq_s64(vld1q_s64(p), v));
 }
 inline Quad pair_load(const float* p) {
@@ -246,7 +247,8 @@ inline void add_pair(std::int64_t* coarse, std::int64_t* rest, Double2 v, Double
   add_steps(rest, steps_between(double2_add(left, rest_magic), rest_magic));
 }
 
-/// Adds a quad to the limbs of a pixel: [4] coarse, [4] rest, 64-byte aligned.
+/// Adds a quad to the kFilmQuadLimbs limbs of a pixel: coarse, then rests; 64-byte aligned.
+static_assert(kFilmQuadLimbs == 8 && kFilmQuadRest == 4);
 #if defined(SPECTILE_KERNEL_AVX512)
 struct QuadGrid {
   __m256d coarse, rest;
@@ -305,8 +307,8 @@ struct QuadGrid {
         rest{double2_load(grid.rest), double2_load(grid.rest + 2)} {}
 };
 inline void add_quad(std::int64_t* pixel, Quad v, const QuadGrid& grid) {
-  add_pair(pixel, pixel + 4, widen_first(v), grid.coarse[0], grid.rest[0]);
-  add_pair(pixel + 2, pixel + 6, widen_last(v), grid.coarse[1], grid.rest[1]);
+  add_pair(pixel, pixel + kFilmQuadRest, widen_first(v), grid.coarse[0], grid.rest[0]);
+  add_pair(pixel + 2, pixel + 2 + kFilmQuadRest, widen_last(v), grid.coarse[1], grid.rest[1]);
 }
 #endif
 

@@ -1,15 +1,15 @@
 // Smits upsampling without branches: two table permutes and three multiply-adds a band.
 #pragma once
 
-#include "kernels/simd.hpp"
-#include "kernels/simd_convert.hpp"
-#include "kernels/simd_tables.hpp"
+#include "kernels/abi/upsampling.hpp"
+#include "kernels/simd/convert.hpp"
+#include "kernels/simd/tables.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {
 
-/// The mixture that makes one vector of pixels: three weights, and which secondary and primary two of them go
-/// to.
+/// The mixtures of one vector of pixels: three weights, and the secondary and primary that two of them go to.
 struct Mixture {
   F32 white, second, first;
   Index second_index, first_index;
@@ -24,10 +24,10 @@ inline Mixture mixture(F32 r, F32 g, F32 b) noexcept {
   const F32 capped = xsimd::select(high_rg < b, high_rg, b);
   const F32 middle = xsimd::select(capped < low_rg, low_rg, capped);
 
-  const F32 second_of_rg = xsimd::select(g < r, F32(2.0F), F32(1.0F));
-  const F32 first_of_rg = xsimd::select(g < r, F32(4.0F), F32(5.0F));
-  const F32 second = xsimd::select(b < low_rg, F32(3.0F), second_of_rg);
-  const F32 first = xsimd::select(high_rg < b, F32(6.0F), first_of_rg);
+  const F32 rg_second = xsimd::select(g < r, F32(2.0F), F32(1.0F));
+  const F32 rg_first = xsimd::select(g < r, F32(4.0F), F32(5.0F));
+  const F32 second = xsimd::select(b < low_rg, F32(3.0F), rg_second);
+  const F32 first = xsimd::select(high_rg < b, F32(6.0F), rg_first);
   return {least, middle - least, most - middle, prepare(xsimd::to_int(second)),
           prepare(xsimd::to_int(first))};
 }
@@ -38,26 +38,25 @@ inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexce
   return max(lowest, sample);
 }
 
-/// Vectors of a block taken at once where stores go round the caches: all, so that memory is written line
-/// after line.
+/// Vectors of a block taken at once for non-temporal stores: all, so that memory is written line after line.
 inline constexpr std::size_t kWholeBlock = kLanes / kWidth;
 
 /// Calls put(band, lane, sample) for every band and each vector of kLanes pixels at rgb + at, kTogether
-/// vectors at once. The limit comes as a number: where GCC 12 passes a vector to a function of its own, it
+/// vectors at once. The minimum comes as a number: where GCC 12 passes a vector to a function of its own, it
 /// forgets to clear the registers' upper parts at the end, and every caller's scalar code then takes many
 /// times as long.
 template <std::size_t kTogether = kGroup, class Put>
-inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* table, float least,
-                        std::size_t bands, Put put) noexcept {
-  const F32 lowest(least);
+inline void smits_lanes(const float* const rgb[3], std::size_t at, const SmitsTable& table,
+                        Put put) noexcept {
+  const F32 lowest(table.lowest);
   for (std::size_t lane = 0; lane < kLanes; lane += kTogether * kWidth) {
     Mixture m[kTogether];
     for (std::size_t j = 0; j < kTogether; ++j) {
       const std::size_t i = at + lane + j * kWidth;
       m[j] = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
     }
-    for (std::size_t band = 0; band < bands; ++band) {
-      const float* entry = table + band * kSmitsRow;
+    for (std::size_t band = 0; band < table.bands; ++band) {
+      const float* entry = table.rows + band * kSmitsRow;
       const Row row = load_row(entry);
       const F32 white(entry[0]);
       for (std::size_t j = 0; j < kTogether; ++j)
@@ -66,19 +65,20 @@ inline void smits_lanes(const float* const rgb[3], std::size_t at, const float* 
   }
 }
 
-void smits_blocks(float* dst, const float* const rgb[3], const float* table, float lowest, std::size_t bands,
-                  std::size_t blocks, bool streaming) noexcept {
-  for (std::size_t block = 0; block < blocks; ++block, dst += bands * kLanes) {
-    if (streaming) {
-      smits_lanes<kWholeBlock>(
-          rgb, block * kLanes, table, lowest, bands,
-          [dst](std::size_t band, std::size_t lane, F32 v) { stream(dst + band * kLanes + lane, v); });
+void smits_blocks(float* dst, const float* const rgb[3], const SmitsTable& table, std::size_t blocks,
+                  bool non_temporal) noexcept {
+  const SmitsTable t = table;  // a copy that stores through dst leave alone
+  for (std::size_t block = 0; block < blocks; ++block, dst += t.bands * kLanes) {
+    if (non_temporal) {
+      smits_lanes<kWholeBlock>(rgb, block * kLanes, t, [dst](std::size_t band, std::size_t lane, F32 v) {
+        stream(dst + band * kLanes + lane, v);
+      });
     } else {
-      smits_lanes(rgb, block * kLanes, table, lowest, bands,
+      smits_lanes(rgb, block * kLanes, t,
                   [dst](std::size_t band, std::size_t lane, F32 v) { store(dst + band * kLanes + lane, v); });
     }
   }
-  if (streaming) stream_fence();
+  if (non_temporal) stream_fence();
 }
 
 inline void put_sample(float* p, F32 v) noexcept {
@@ -89,12 +89,13 @@ inline void put_sample(std::uint16_t* p, F32 v) noexcept {
 }
 
 template <class Sample>
-inline void smits_rows(void* const* rows, const float* const rgb[3], const float* table, float lowest,
-                       std::size_t bands, std::size_t n) noexcept {
-  const F32 low(lowest);
+inline void smits_rows(void* const* rows, const float* const rgb[3], const SmitsTable& table,
+                       std::size_t n) noexcept {
+  const SmitsTable t = table;
+  const F32 low(t.lowest);
   const std::size_t whole = n / kLanes * kLanes;
   for (std::size_t at = 0; at < whole; at += kLanes) {
-    smits_lanes(rgb, at, table, lowest, bands, [rows, at](std::size_t band, std::size_t lane, F32 v) {
+    smits_lanes(rgb, at, t, [rows, at](std::size_t band, std::size_t lane, F32 v) {
       put_sample(static_cast<Sample*>(rows[band]) + at + lane, v);
     });
   }
@@ -106,9 +107,9 @@ inline void smits_rows(void* const* rows, const float* const rgb[3], const float
     const std::size_t i = whole + j * kWidth;
     m[j] = mixture(load(rgb[0] + i), load(rgb[1] + i), load(rgb[2] + i));
   }
-  for (std::size_t band = 0; band < bands; ++band) {
+  for (std::size_t band = 0; band < t.bands; ++band) {
     alignas(64) Sample tail[kLanes];
-    const float* entry = table + band * kSmitsRow;
+    const float* entry = t.rows + band * kSmitsRow;
     const Row row = load_row(entry);
     const F32 white(entry[0]);
     for (std::size_t j = 0; j * kWidth < rest; ++j)
@@ -129,14 +130,14 @@ void smits_fold(float* const dst[3], const float* const rgb[3], const float* tab
   }
 }
 
-void smits_rows_float(void* const* rows, const float* const rgb[3], const float* table, float lowest,
-                      std::size_t bands, std::size_t n) noexcept {
-  smits_rows<float>(rows, rgb, table, lowest, bands, n);
+void smits_rows_float(void* const* rows, const float* const rgb[3], const SmitsTable& table,
+                      std::size_t n) noexcept {
+  smits_rows<float>(rows, rgb, table, n);
 }
 
-void smits_rows_half(void* const* rows, const float* const rgb[3], const float* table, float lowest,
-                     std::size_t bands, std::size_t n) noexcept {
-  smits_rows<std::uint16_t>(rows, rgb, table, lowest, bands, n);
+void smits_rows_half(void* const* rows, const float* const rgb[3], const SmitsTable& table,
+                     std::size_t n) noexcept {
+  smits_rows<std::uint16_t>(rows, rgb, table, n);
 }
 
 }  // namespace

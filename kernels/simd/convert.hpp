@@ -1,7 +1,7 @@
 // Between half, float and double.
 #pragma once
 
-#include "kernels/simd.hpp"
+#include "kernels/simd/vector.hpp"
 
 namespace spectile::kernels {
 namespace {

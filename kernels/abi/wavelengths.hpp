@@ -1,0 +1,102 @@
+// Spectra at single wavelengths, sampled wavelengths, and their projection.
+#pragma once
+
+#include "kernels/abi/lanes.hpp"
+
+namespace spectile::kernels {
+
+/// A function tabulated at even wavelengths: pairs of a value and the difference to the next one.
+struct EvenTable {
+  const float* pairs = nullptr;  ///< [intervals][2]
+  float first_nm = 0;
+  float per_nm = 1;            ///< intervals a nanometre
+  std::int32_t intervals = 0;  ///< at least 1
+};
+
+/// A function linear between irregular knots. The knot that is last at or below a wavelength is searched for
+/// from the one that `start` names for the wavelength's bucket, in steps halved from 2^(halvings - 1) to 1.
+struct KnotTable {
+  const float* knots = nullptr;  ///< [count + 2^halvings], ascending; infinities from count on
+  const float* pairs = nullptr;  ///< [count][2]: the value at a knot, the slope after it (0 after the last)
+  std::int32_t count = 0;
+  const std::int32_t* start = nullptr;  ///< [buckets]
+  float buckets_per_nm = 0;
+  std::int32_t buckets = 0;
+  std::int32_t halvings = 0;
+  bool held = false;  ///< beyond the ends: their values rather than 0
+};
+
+/// Planck's law with wavelengths in units of 1024 nm: factor * l^-5 / (2^(exponent / l) - 1).
+struct PlanckTable {
+  float factor = 0;
+  float exponent = 0;  ///< rounded, and what that left
+  float exponent_rest = 0;
+};
+
+/// One lobe of a sum of Gaussians: its amplitude, its mean, and 1 / sigma on both sides. Units: nm.
+struct GaussianLobe {
+  double amplitude, mean_nm, per_sigma_left, per_sigma_right;
+};
+
+/// The sigmoid of one set of coefficients; wavelengths are clamped to its range.
+struct SigmoidSpectrum {
+  float c[3];
+  float lowest_nm, highest_nm;
+  float scale;
+};
+
+/// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's
+/// sensitivity tanh(steepness * (lambda - centre)).
+struct WavelengthDensity {
+  float first_nm, range_nm;
+  double centre_nm, per_steepness_nm;  ///< visible: 1 / steepness
+  double from, by;                     ///< visible: tanh at u = 0, and what u = 1 takes from it
+  double peak;                         ///< visible: density at the centre
+};
+
+/// Lanes with `count` wavelengths of their own.
+struct WavelengthRows {
+  const float* const* values;     ///< [count] rows of n
+  const float* const* lambda_nm;  ///< likewise
+  const float* const* density;    ///< likewise
+  std::size_t count;
+};
+
+struct WavelengthKernels {
+  // dst = f(lambda); lambda NaN: NaN.
+  /// t = (lambda - first) * per_nm, i = min(int(t), intervals - 1): value[i] + ((t - i) * difference[i])
+  /// t outside [0, intervals]: 0
+  void (*interpolate_even)(float* dst, const float* lambda_nm, const EvenTable& table,
+                           std::size_t n) noexcept;
+  /// i = last knot at or below lambda: value[i] + ((lambda - knot[i]) * slope[i])
+  /// lambda outside the knots: 0; held: the value at the nearer end
+  void (*interpolate_knots)(float* dst, const float* lambda_nm, const KnotTable& table,
+                            std::size_t n) noexcept;
+  /// l = min(lambda / 1024, 2^90), i = 1 / l, x = exponent * i, n = nearest(x)
+  /// rest = (fma(-x, l, exponent) + exponent_rest) * i, q = 2^((x - n) + rest) - 1 by its series in fma
+  /// ((factor * 2^-(n / 2)) / (l^5 * (q + (1 - 2^-n)))) * 2^-(n - n / 2): within 6 u from 0.1 to 10^7 nm
+  /// lambda <= 0 or infinite, x >= 252: 0
+  void (*planck)(float* dst, const float* lambda_nm, const PlanckTable& table, std::size_t n) noexcept;
+  /// sum(lobes) amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, in double, rounded once
+  void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
+                    std::size_t n) noexcept;
+  /// sigmoid(clamp(lambda, lowest, highest)) * scale, as in UpsamplingKernels
+  void (*sigmoid_at)(float* dst, const float* lambda_nm, const SigmoidSpectrum& spectrum,
+                     std::size_t n) noexcept;
+
+  // Sampled wavelengths: v = clamp(u, 0, 1 - 2^-24), u[k] = v + k / count, less 1 from 1 on; u NaN: NaN.
+  /// lambda[k] = first + (u[k] * range), density[k] = 1 / range
+  void (*even_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
+                           const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  /// y = from - (u[k] * by), lambda[k] = centre - atanh(y) * per_steepness, density[k] = peak * (1 - y * y),
+  /// in double, rounded once. Source: Radziszewski, Boryczko, Alda, An Improved Technique for Full Spectral
+  /// Rendering, Journal of WSCG 17, 2009.
+  void (*visible_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
+                              const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  /// dst[c] = factor * sum(k) curve[c](lambda[k]) * (values[k] / density[k]), curves as in interpolate_even
+  /// density 0: adds nothing, whatever the value. curves: three tables of the same wavelengths
+  void (*project_wavelengths)(float* const dst[3], const WavelengthRows& samples, const EvenTable curves[3],
+                              float factor, std::size_t n) noexcept;
+};
+
+}  // namespace spectile::kernels

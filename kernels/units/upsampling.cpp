@@ -1,0 +1,23 @@
+// Smits mixtures and sigmoids: one unit, compiled once per instruction set.
+#include "kernels/sigmoid.inl"
+#include "kernels/sigmoid_continuation.inl"
+#include "kernels/sigmoid_search.inl"
+#include "kernels/smits.inl"
+
+namespace spectile::kernels::SPECTILE_ISA {
+
+extern const UpsamplingKernels upsampling;
+constexpr UpsamplingKernels upsampling = {
+    .smits_blocks = smits_blocks,
+    .smits_rows_float = smits_rows_float,
+    .smits_rows_half = smits_rows_half,
+    .smits_fold = smits_fold,
+    .sigmoid_solve = sigmoid_solve,
+    .sigmoid_continuation = sigmoid_continuation,
+    .sigmoid_blocks = sigmoid_blocks,
+    .sigmoid_rows_float = sigmoid_rows_float,
+    .sigmoid_rows_half = sigmoid_rows_half,
+    .sigmoid_project = sigmoid_project,
+};
+
+}  // namespace spectile::kernels::SPECTILE_ISA

@@ -1,0 +1,18 @@
+// Spectra at single wavelengths: one unit, compiled once per instruction set.
+#include "kernels/wavelengths.inl"
+
+namespace spectile::kernels::SPECTILE_ISA {
+
+extern const WavelengthKernels wavelengths;
+constexpr WavelengthKernels wavelengths = {
+    .interpolate_even = interpolate_even,
+    .interpolate_knots = interpolate_knots,
+    .planck = planck,
+    .gaussians = gaussians,
+    .sigmoid_at = sigmoid_at,
+    .even_wavelengths = even_wavelengths,
+    .visible_wavelengths = visible_wavelengths,
+    .project_wavelengths = project_wavelengths,
+};
+
+}  // namespace spectile::kernels::SPECTILE_ISA

@@ -1,0 +1,64 @@
+// Scalar twins of the Smits kernels.
+#include "src/reference/smits.hpp"
+
+#include "src/reference/rows.hpp"
+#include "src/reference/twins.hpp"
+
+namespace spectile::reference {
+
+using kernels::kLanes;
+using kernels::kSmitsRow;
+using kernels::SmitsTable;
+
+namespace {
+
+float mixed(const SmitsMixture& m, const float* row) {
+  return (m.white * row[0] + m.second * row[m.second_index]) + m.first * row[m.first_index];
+}
+
+float smits_sample(const SmitsMixture& m, const SmitsTable& table, std::size_t band) {
+  const float sample = mixed(m, table.rows + band * kSmitsRow);
+  return sample < table.lowest ? table.lowest : sample;
+}
+
+}  // namespace
+
+void smits_blocks(float* dst, const float* const rgb[3], const SmitsTable& table, std::size_t blocks,
+                  bool /*non_temporal*/) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t band = 0; band < table.bands; ++band) {
+      dst[((i / kLanes) * table.bands + band) * kLanes + i % kLanes] = smits_sample(m, table, band);
+    }
+  }
+}
+
+void smits_rows_float(void* const* rows, const float* const rgb[3], const SmitsTable& table,
+                      std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t band = 0; band < table.bands; ++band) {
+      put(rows[band], i, smits_sample(m, table, band));
+    }
+  }
+}
+
+void smits_rows_half(void* const* rows, const float* const rgb[3], const SmitsTable& table,
+                     std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t band = 0; band < table.bands; ++band) {
+      const float sample = smits_sample(m, table, band);
+      put(rows[band], i, clamped_half(sample));
+    }
+  }
+}
+
+void smits_fold(float* const dst[3], const float* const rgb[3], const float* table, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t k = 0; k < 3; ++k) dst[k][i] = mixed(m, table + k * kSmitsRow);
+  }
+}
+
+}  // namespace spectile::reference
