@@ -203,7 +203,7 @@ std::vector<std::string> names_near(std::string_view text) {
 
 Error unknown(std::string_view text) {
   const std::string shown =
-      text.size() > kLongestName ? std::string(text.substr(0, kLongestName)) + "..." : std::string(text);
+      fmt::format("{}{}", text.substr(0, kLongestName), text.size() > kLongestName ? "..." : "");
   if (const auto near = names_near(text); !near.empty()) {
     return make_error(ErrorCode::kUnknownName, "spectrum \"{}\" is unknown; near it: {}", shown,
                       fmt::join(near, ", "));
