@@ -73,8 +73,8 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
       std::free(resolved);
     }
   }
-  std::string folder = std::filesystem::path(file.target_).parent_path().string();
-  if (folder.empty()) folder = ".";
+  const std::filesystem::path parent = std::filesystem::path(file.target_).parent_path();
+  const std::string folder = parent.empty() ? std::string(1, '.') : parent.string();
 #ifdef O_TMPFILE
   file.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
   if (file.fd_ < 0 && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL) {

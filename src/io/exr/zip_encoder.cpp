@@ -1,6 +1,7 @@
-// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by libdeflate.
+// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by ISA-L or libdeflate.
 #include "src/io/exr/zip_encoder.hpp"
 
+#include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
 
 #include <cstdint>
@@ -8,9 +9,6 @@
 
 namespace spectile::io {
 namespace {
-
-// Below so many bytes libdeflate's other kinds of blocks matter, and time does not.
-constexpr std::size_t kQuickBytes = 8192;
 
 std::uint8_t difference(std::uint8_t a, std::uint8_t b) {
   return static_cast<std::uint8_t>(a - b + 128);
@@ -38,31 +36,38 @@ void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept {
   libdeflate_free_compressor(c);
 }
 
-ZipEncoder::ZipEncoder(int level) : level_(level), compressor_(libdeflate_alloc_compressor(level)) {
+ZipEncoder::ZipEncoder(int level) {
+  if (level == 1) {
+    work_.resize(ISAL_DEF_LVL1_EXTRA_LARGE);
+    return;
+  }
+  compressor_.reset(libdeflate_alloc_compressor(level));
   if (compressor_ == nullptr) throw std::bad_alloc();
 }
 
 std::size_t ZipEncoder::deflate(std::size_t n) {
-  const auto* const in = reinterpret_cast<const std::uint8_t*>(filtered_.data());
-  if (level_ != 1 || n < kQuickBytes) {
-    compressed_.resize(n);
-    return libdeflate_zlib_compress(compressor_.get(), in, n, compressed_.data(), n - 1);
-  }
-  // RFC 1950: a window of 32 KiB, the fastest level; at the end, the sum of the bytes.
-  compressed_.resize(RunDeflate::bound(n) + 6);
+  auto* const in = reinterpret_cast<std::uint8_t*>(filtered_.data());
   auto* const out = reinterpret_cast<std::uint8_t*>(compressed_.data());
-  out[0] = 0x78;
-  out[1] = 0x01;
-  std::size_t size = 2 + quick_.compress({in, n}, out + 2);
-  const std::uint32_t sum = libdeflate_adler32(1, in, n);
-  for (int shift = 24; shift >= 0; shift -= 8) out[size++] = static_cast<std::uint8_t>(sum >> shift);
-  return size < n ? size : 0;
+  if (compressor_ != nullptr) return libdeflate_zlib_compress(compressor_.get(), in, n, out, n - 1);
+  isal_zstream stream;
+  isal_deflate_stateless_init(&stream);
+  stream.level = 1;
+  stream.level_buf = reinterpret_cast<std::uint8_t*>(work_.data());
+  stream.level_buf_size = static_cast<std::uint32_t>(work_.size());
+  stream.gzip_flag = IGZIP_ZLIB;
+  stream.end_of_stream = 1;
+  stream.next_in = in;
+  stream.avail_in = static_cast<std::uint32_t>(n);
+  stream.next_out = out;
+  stream.avail_out = static_cast<std::uint32_t>(n - 1);
+  return isal_deflate_stateless(&stream) == COMP_OK ? stream.total_out : 0;
 }
 
 std::span<const std::byte> ZipEncoder::encode(std::span<const std::byte> packed) {
   const std::size_t n = packed.size();
   if (n == 0) return packed;
   filtered_.resize(n);
+  compressed_.resize(n);
   filter(reinterpret_cast<const std::uint8_t*>(packed.data()),
          reinterpret_cast<std::uint8_t*>(filtered_.data()), n);
   // 0 when it does not fit: then the chunk is stored as it is, which its size tells a reader.
