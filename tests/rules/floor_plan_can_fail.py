@@ -82,8 +82,7 @@ def broken_edges(plan):
     names = [name for name, _, _ in floor_plan.ROOMS]
     for position, (room, _, allowed) in enumerate(floor_plan.ROOMS):
         others = names[position + 1:] + names[:position]
-        other = next(other for other in others if other in headers and other not in allowed.split()
-                     and (room, other) not in floor_plan.PENDING_EDGES)
+        other = next(other for other in others if other in headers and other not in allowed.split())
         header = headers[other]
         include = f"<{header.removeprefix('include/')}>" if header.startswith("include/") else f'"{header}"'
         yield room, sources[room], f"#include {include}"
