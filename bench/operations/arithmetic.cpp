@@ -10,54 +10,37 @@ namespace {
 using kernels::KernelTable;
 
 /// Which values are tried: one plane of samples for each operand.
-Operation sample_operation(std::string name, std::size_t operands) {
-  Operation out;
-  out.group = "arithmetic";
-  out.name = std::move(name);
-  out.item = "sample";
-  out.in = {operands, 1};
-  out.out = {1, 1};
+Operation& sample_operation(std::vector<Operation>& to, std::string name, std::size_t operands) {
+  Operation& out = add_operation(to, "arithmetic", std::move(name), "sample", {operands, 1}, {1, 1});
   out.fill = uniform_values(operands, 0.01F, 1.0F);
   return out;
 }
 
 /// An operation rounded once: u of the result.
 template <class F>
-void rounded_once(Operation& op, F f) {
-  op.bound = 1;
-  op.error = error_against(
-      1,
-      [f](const double* in, double* reference, double* scale) {
-        reference[0] = f(in);
-        scale[0] = std::abs(reference[0]);
-      },
-      1, true, 1);
+void rounded_once(Operation& op, F f, double bound = 1) {
+  op.bound = bound;
+  op.error = error_against(1, 1, true, bound, [f](const double* in, double* reference, double* /*scale*/) {
+    reference[0] = f(in);
+  });
 }
 
 /// One without rounding: the very value, whatever the denormals.
 template <class F>
 void exact(Operation& op, F f) {
-  op.bound = 0;
+  rounded_once(op, f, 0);
   op.unit = "exact";
-  op.error = error_against(
-      1,
-      [f](const double* in, double* reference, double* scale) {
-        reference[0] = f(in);
-        scale[0] = std::abs(reference[0]);
-      },
-      1, true, 0);
 }
 
 void add_basic(std::vector<Operation>& to) {
   using Binary = void (*KernelTable::*)(float*, const float*, const float*, std::size_t) noexcept;
   const auto binary = [&](const char* name, Binary kernel, auto f) -> Operation& {
-    Operation op = sample_operation(name, 2);
+    Operation& op = sample_operation(to, name, 2);
     op.operations = 1;
     op.run = [kernel](const KernelTable& k, const Arrays& a) {
       (k.*kernel)(a.out(), a.in(0), a.in(1), a.n());
     };
     rounded_once(op, f);
-    to.push_back(std::move(op));
     return to.back();
   };
   binary("add", &KernelTable::add, [](const double* v) { return v[0] + v[1]; });
@@ -71,21 +54,19 @@ void add_basic(std::vector<Operation>& to) {
   or_zero.operations = 2;
   or_zero.divisions = 1;
 
-  Operation negate = sample_operation("negate", 1);
+  Operation& negate = sample_operation(to, "negate", 1);
   negate.operations = 1;
   negate.run = [](const KernelTable& k, const Arrays& a) { k.negate(a.out(), a.in(), a.n()); };
   negate.bitwise = true;
   exact(negate, [](const double* v) { return -v[0]; });
-  to.push_back(std::move(negate));
 
   constexpr float kFactor = 0.7F;
-  Operation scale = sample_operation("scale", 1);
+  Operation& scale = sample_operation(to, "scale", 1);
   scale.operations = 1;
   scale.run = [](const KernelTable& k, const Arrays& a) { k.scale(a.out(), a.in(), kFactor, a.n()); };
   rounded_once(scale, [](const double* v) { return v[0] * static_cast<double>(kFactor); });
-  to.push_back(std::move(scale));
 
-  Operation clamp = sample_operation("clamp", 1);
+  Operation& clamp = sample_operation(to, "clamp", 1);
   clamp.operations = 4;
   clamp.run = [](const KernelTable& k, const Arrays& a) { k.clamp(a.out(), a.in(), 0.1F, 0.9F, a.n()); };
   exact(clamp, [](const double* v) {
@@ -93,46 +74,37 @@ void add_basic(std::vector<Operation>& to) {
     const double high = 0.9F;
     return v[0] < low ? low : high < v[0] ? high : v[0];
   });
-  to.push_back(std::move(clamp));
 }
 
 void add_compound(std::vector<Operation>& to) {
-  Operation fused = sample_operation("multiply_add", 3);
+  Operation& fused = sample_operation(to, "multiply_add", 3);
   fused.operations = 2;
   fused.bound = 2;  // the product, the sum
   fused.run = [](const KernelTable& k, const Arrays& a) {
     k.multiply_add(a.out(), a.in(0), a.in(1), a.in(2), a.n());
   };
-  fused.error = error_against(
-      1,
-      [](const double* v, double* reference, double* scale) {
+  fused.error =
+      error_against(1, 2, false, fused.bound, [](const double* v, double* reference, double* scale) {
         reference[0] = v[0] * v[1] + v[2];
         scale[0] = std::abs(v[0] * v[1]) + std::abs(v[2]);
-      },
-      2, false, fused.bound);
-  to.push_back(std::move(fused));
+      });
 
   constexpr float kPart = 0.3F;
-  Operation lerp = sample_operation("lerp", 2);
+  Operation& lerp = sample_operation(to, "lerp", 2);
   lerp.operations = 3;
   lerp.bound = 3;  // 1 - t, a product, the sum
   lerp.run = [](const KernelTable& k, const Arrays& a) { k.lerp(a.out(), a.in(0), a.in(1), kPart, a.n()); };
-  lerp.error = error_against(
-      1,
-      [](const double* v, double* reference, double* scale) {
-        const double t = kPart;
-        reference[0] = (1 - t) * v[0] + t * v[1];
-        scale[0] = (1 - t) * std::abs(v[0]) + t * std::abs(v[1]);
-      },
-      3, false, lerp.bound);
-  to.push_back(std::move(lerp));
+  lerp.error = error_against(1, 3, false, lerp.bound, [](const double* v, double* reference, double* scale) {
+    const double t = kPart;
+    reference[0] = (1 - t) * v[0] + t * v[1];
+    scale[0] = (1 - t) * std::abs(v[0]) + t * std::abs(v[1]);
+  });
 
-  Operation root = sample_operation("sqrt", 1);
+  Operation& root = sample_operation(to, "sqrt", 1);
   root.divisions = 1;
   root.bottleneck = "the divider, which takes longer for a root than for a division";
   root.run = [](const KernelTable& k, const Arrays& a) { k.sqrt(a.out(), a.in(), a.n()); };
   rounded_once(root, [](const double* v) { return std::sqrt(v[0]); });
-  to.push_back(std::move(root));
 }
 
 /// The bound of exp and pow, half a unit in the last place and a bit, is at most 1.002 u of the result.
@@ -141,16 +113,15 @@ constexpr double kSeriesBound = 1.002;
 void add_series(std::vector<Operation>& to) {
   // On doubles: widen, times log2(e), hold (4), round (3), times ln 2, the series, the exponent (2), narrow.
   constexpr double kExp = 2 * (1 + 1 + 4 + 3 + 1 + 2 * kernels::kExpTerms - 1 + 2 + 1);
-  Operation exp = sample_operation("exp", 1);
+  Operation& exp = sample_operation(to, "exp", 1);
   exp.operations = kExp;
   exp.fill = uniform_values(1, -10.0F, 10.0F);
   exp.bottleneck = "two chains of dependent multiply-adds in double, and the conversions' shuffles";
   exp.run = [](const KernelTable& k, const Arrays& a) { k.exp(a.out(), a.in(), a.n()); };
   rounded_once(exp, [](const double* v) { return std::exp(v[0]); });
   exp.bound = kSeriesBound;
-  to.push_back(std::move(exp));
 
-  Operation pow = sample_operation("pow", 1);
+  Operation& pow = sample_operation(to, "pow", 1);
   // On doubles, beside exp's: exponent and mantissa (5), to around 1 (5), the division's ends (2), its
   // square, the series, three more; on floats the special cases.
   pow.operations = kExp + 2 * (5 + 5 + 2 + 1 + 2 * kernels::kAtanhTerms - 1 + 3) + 12;
@@ -159,7 +130,6 @@ void add_series(std::vector<Operation>& to) {
   pow.run = [](const KernelTable& k, const Arrays& a) { k.pow(a.out(), a.in(), kPowExponent, a.n()); };
   rounded_once(pow, [](const double* v) { return std::pow(v[0], static_cast<double>(kPowExponent)); });
   pow.bound = kSeriesBound;
-  to.push_back(std::move(pow));
 }
 
 }  // namespace

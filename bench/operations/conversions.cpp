@@ -25,12 +25,7 @@ bool same(double a, double b) {
 }  // namespace
 
 void add_conversions(std::vector<Operation>& to) {
-  constexpr double kBeyond = std::numeric_limits<double>::infinity();
-  Operation widen;
-  widen.group = "conversion";
-  widen.name = "half to float";
-  widen.item = "sample";
-  widen.in = {1, 1, Element::kHalf};
+  Operation& widen = add_operation(to, "conversion", "half to float", "sample", {1, 1, Element::kHalf});
   widen.unit = "exact";
   widen.operations = 2;
   widen.fill = uniform_values(1, 0.0F, 1.0F);
@@ -40,13 +35,8 @@ void add_conversions(std::vector<Operation>& to) {
   widen.error = [](const double* in, const double* out, double) {
     return same(in[0], out[0]) ? 0.0 : kBeyond;
   };
-  to.push_back(std::move(widen));
 
-  Operation narrow;
-  narrow.group = "conversion";
-  narrow.name = "float to half";
-  narrow.item = "sample";
-  narrow.out = {1, 1, Element::kHalf};
+  Operation& narrow = add_operation(to, "conversion", "float to half", "sample", {}, {1, 1, Element::kHalf});
   narrow.unit = "exact";  // the nearest half
   narrow.operations = 2;
   narrow.fill = uniform_values(1, 0.0F, 1.0F);
@@ -57,7 +47,6 @@ void add_conversions(std::vector<Operation>& to) {
     const double reference = std::isfinite(in[0]) ? nearest_half(in[0]) : in[0];
     return same(reference, out[0]) ? 0.0 : kBeyond;
   };
-  to.push_back(std::move(narrow));
 }
 
 }  // namespace spectile::measure

@@ -14,17 +14,11 @@ namespace {
 using kernels::KernelTable;
 using kernels::RgbScan;
 
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
 /// D65. Source: IEC 61966-2-1:1999, chromaticity (0.3127, 0.3290).
 constexpr std::array<double, 3> kWhite = {0.3127 / 0.3290, 1.0, (1.0 - 0.3127 - 0.3290) / 0.3290};
 
 void add_ciede2000(std::vector<Operation>& to) {
-  Operation op;
-  op.group = "colorimetry";
-  op.name = "CIEDE2000";
-  op.item = "pair";
-  op.in = {6, 1};
-  op.out = {1, 1};
+  Operation& op = add_operation(to, "colorimetry", "CIEDE2000", "pair", {6, 1}, {1, 1});
   op.unit = "u of it and 1e-12 of the coordinates";
   op.bound = 1;
   // Six cube roots, eight square roots, two arc tangents, seven sines and cosines, three exponentials: in
@@ -50,17 +44,12 @@ void add_ciede2000(std::vector<Operation>& to) {
     const double allowed = 0x1p-24 * reference.value + 1e-12 * std::max(1.0, reference.size) + tiny;
     return std::abs(out[0] - reference.value) / allowed;
   };
-  to.push_back(std::move(op));
 }
 
 void add_scan(std::vector<Operation>& to) {
-  Operation op;
-  op.group = "conversion";
-  op.name = "count what is outside";
-  op.item = "colour";
-  op.in = {3, 1};
+  Operation& op =
+      add_operation(to, "conversion", "count what is outside", "colour", {3, 1}, {1, 1, Element::kMask});
   // A row of an image is counted at once: 32 bytes, whatever its length.
-  op.out = {1, 1, Element::kMask};
   op.touched_bytes = 0;
   op.unit = "exact";
   // A component: compare with 0, with 1, find out whether it is finite (2), the maximum, join them (3).
@@ -91,7 +80,6 @@ void add_scan(std::vector<Operation>& to) {
                       found.over_one == reference.over_one && found.maximum == reference.maximum;
     return same ? 0.0 : kBeyond;
   };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

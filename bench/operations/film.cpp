@@ -15,7 +15,6 @@ namespace {
 
 using kernels::KernelTable;
 
-constexpr std::size_t kWavelengths = 4;
 constexpr std::int32_t kIntervals = 470;  // 360 to 830 nm
 constexpr double kFirstNm = 360;
 /// Far above what is tried: what a film refuses is another matter.
@@ -60,18 +59,14 @@ std::int32_t* reasons_for(std::size_t n) {
   return reasons.data();
 }
 
-Operation film_operation(std::string name, std::size_t planes) {
-  Operation op;
-  op.group = "film";
-  op.name = std::move(name);
-  op.in = {planes, 1};
-  op.out = {1, 4, Element::kQuad};
+Operation& film_operation(std::vector<Operation>& to, std::string name, std::size_t planes) {
+  Operation& op = add_operation(to, "film", std::move(name), "lane", {planes, 1}, {1, 4, Element::kQuad});
   op.cache_only = true;  // a film weighs some thousand samples at once
   return op;
 }
 
 void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
-  Operation op = film_operation("weigh film samples of 4 wavelengths", 3 * kWavelengths);
+  Operation& op = film_operation(to, "weigh film samples of 4 wavelengths", 3 * kWavelengths);
   op.item = "sample";
   // For vectors of wavelengths, looking at faults and finding the row; for quads of colours, two products and
   // sums a wavelength, the factor, limits.
@@ -79,22 +74,9 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
   op.divisions = kWavelengths;
   op.bottleneck = "a row of the curves for each sample and wavelength: two loads and a shuffle of their own";
   op.bound = kWavelengths + 8;
-  op.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
-      v[k] = uniform(random, 0.0F, 2.0F);
-      v[kWavelengths + k] = uniform(random, 360.0F, 830.0F);
-      v[2 * kWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
-    }
-  };
+  op.fill = fill_path;
   op.run = [rows](const KernelTable& k, const Arrays& a) {
-    const float* radiance[kWavelengths];
-    const float* lambda[kWavelengths];
-    const float* density[kWavelengths];
-    for (std::size_t i = 0; i < kWavelengths; ++i) {
-      radiance[i] = a.in(i);
-      lambda[i] = a.in(kWavelengths + i);
-      density[i] = a.in(2 * kWavelengths + i);
-    }
+    const PathRows path(a);
     kernels::FilmCurves curves;
     curves.rows = aligned_rows(*rows);
     curves.first_nm = static_cast<float>(kFirstNm);
@@ -103,12 +85,11 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
     const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
                                         std::numeric_limits<float>::max()};
     k.film_weigh_wavelengths({a.out(), reasons_for(a.n())},
-                             {radiance, lambda, density, nullptr, kWavelengths, a.n()}, curves, limits,
-                             1.0F / kWavelengths);
+                             {path.values, path.lambda, path.density, nullptr, kWavelengths, a.n()}, curves,
+                             limits, 1.0F / kWavelengths);
   };
   const auto evaluate_errors = error_against(
-      3,
-      [rows](const double* v, double* reference, double* scale) {
+      3, 2 * kWavelengths, false, op.bound, [rows](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < kWavelengths; ++i) {
           const double density = v[2 * kWavelengths + i];
           const double t = v[kWavelengths + i] - kFirstNm;
@@ -123,8 +104,7 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
             scale[c] += (std::abs(value) + std::abs(part * step)) * std::abs(ratio) / kWavelengths;
           }
         }
-      },
-      2 * kWavelengths, false, op.bound);
+      });
   op.error = [evaluate_errors](const double* in, const double* out, double tiny) {
     // Results for samples that a film refuses are not specified: numbers that are not finite, negative
     // densities, ratios beyond float's range.
@@ -139,13 +119,12 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
     }
     return evaluate_errors(in, out, tiny);
   };
-  to.push_back(std::move(op));
 }
 
 void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
   const std::size_t bands = projector.bands().count();
   const auto count = static_cast<double>(bands);
-  Operation op = film_operation("weigh film samples on bands", bands);
+  Operation& op = film_operation(to, "weigh film samples on bands", bands);
   op.item = "spectrum";
   op.operations = 4 * (2 * count + count / 8) + 8;
   op.bound = count / 8 + 12;
@@ -164,21 +143,18 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
     k.film_weigh_bands({a.out(), reasons_for(a.n())}, {rows.data(), nullptr, nullptr, nullptr, bands, a.n()},
                        weights->data(), limits);
   };
-  const auto evaluate_errors = error_against(
-      3,
-      [=](const double* v, double* reference, double* scale) {
+  const auto evaluate_errors =
+      error_against(3, count, false, op.bound, [=](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < 3 * bands; ++i) {
           const double term = (*exact)[i] * v[i / 3];
           reference[i % 3] += term;
           scale[i % 3] += std::abs(term);
         }
-      },
-      count, false, op.bound);
+      });
   op.error = [=](const double* in, const double* out, double tiny) {
     if (!std::all_of(in, in + bands, [](double v) { return std::isfinite(v); })) return kOutOfDomain;
     return evaluate_errors(in, out, tiny);
   };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

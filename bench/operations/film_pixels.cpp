@@ -11,12 +11,8 @@ using kernels::KernelTable;
 using kernels::kFilmTilePixels;
 
 void add_development(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op;
-  op.group = "film";
-  op.name = "film: develop XYZ";
-  op.item = "pixel";
-  op.in = {1, kPixelLimbs, Element::kLimb};
-  op.out = {3, 1};
+  Operation& op =
+      add_operation(to, "film", "film: develop XYZ", "pixel", {1, kPixelLimbs, Element::kLimb}, {3, 1});
   op.cache_only = true;  // tile by tile, under its lock
   op.bound = 1.001;
   // In double: four sums of two limbs, carried over (4), widened, scaled and added (5), three rounded.
@@ -40,9 +36,8 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
       }
     }
   };
-  op.error = error_against(
-      3,
-      [film](const double* limbs, double* reference, double* scale) {
+  op.error =
+      error_against(3, 1, true, op.bound, [film](const double* limbs, double* reference, double* /*scale*/) {
         const FilmOptions& o = film->options();
         const auto step = [&](bool weight) {
           return std::ldexp(1.0, (weight ? o.weight_range : o.range) - kFilmCoarseBits);
@@ -58,11 +53,8 @@ void add_development(std::vector<Operation>& to, const SharedFilm& film) {
         const long double weight = sum(3, step(true));
         for (std::size_t c = 0; c < 3; ++c) {
           reference[c] = weight == 0 ? 0.0 : static_cast<double>(sum(c, step(false)) / weight);
-          scale[c] = std::abs(reference[c]);
         }
-      },
-      1, true, op.bound);
-  to.push_back(std::move(op));
+      });
 }
 
 }  // namespace spectile::measure

@@ -14,15 +14,8 @@ using kernels::KernelTable;
 using kernels::kFilmTilePixels;
 using kernels::kLanes;
 
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
-
 void add_places(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op;
-  op.group = "film";
-  op.name = "film: place samples";
-  op.item = "sample";
-  op.in = {3, 1};
-  op.out = {1, 1, Element::kInt};
+  Operation& op = add_operation(to, "film", "film: place samples", "sample", {3, 1}, {1, 1, Element::kInt});
   op.cache_only = true;
   op.unit = "exact";
   // Inside (7), to integers (6), tile (4), pixel (4), address (2), sums of what may be no number (4),
@@ -65,17 +58,12 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
     }
     return out[0] == reference ? 0.0 : kBeyond;
   };
-  to.push_back(std::move(op));
 }
 
 void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
   const std::size_t stride = (bands + 3) / 4 * 4;
-  Operation op;
-  op.group = "film";
-  op.name = "film: turn samples on bands";
-  op.item = "spectrum";
-  op.in = {bands + 1, 1};
-  op.out = {1, stride, Element::kQuad};
+  Operation& op = add_operation(to, "film", "film: turn samples on bands", "spectrum", {bands + 1, 1},
+                                {1, stride, Element::kQuad});
   op.cache_only = true;
   op.bound = 1;
   // A sample's magnitude (1), the largest (1), times the weight (1), its share of turning four by four (2).
@@ -93,81 +81,59 @@ void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
     k.film_band_quads(a.out(), stride, reasons.data(),
                       {rows.data(), nullptr, nullptr, a.in(bands), bands, a.n()}, limits);
   };
-  op.error = error_against(
-      stride,
-      [=](const double* v, double* reference, double* scale) {
-        for (std::size_t b = 0; b < bands; ++b) {
-          reference[b] = v[b] * v[bands];
-          scale[b] = std::abs(reference[b]);
-        }
-      },
-      1, true, op.bound);
-  to.push_back(std::move(op));
+  op.error =
+      error_against(stride, 1, true, op.bound, [=](const double* v, double* reference, double* /*scale*/) {
+        for (std::size_t b = 0; b < bands; ++b) reference[b] = v[b] * v[bands];
+      });
 }
 
 void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
   // The bands of the film are 5 nm each from 400 nm on.
   constexpr double kReference = 1.0 / 512;
-  Operation op;
-  op.group = "film";
-  op.name = "film: find the bands of 4 wavelengths";
-  op.item = "sample";
-  op.in = {3 * kFilmWavelengths, 1};
-  op.out = {1, 3 * kFilmWavelengths};
+  Operation& op = add_operation(to, "film", "film: find the bands of 4 wavelengths", "sample",
+                                {3 * kWavelengths, 1}, {1, 3 * kWavelengths});
   op.cache_only = true;
   op.bound = 3;
   // A wavelength: inside (5), the bucket (4), a step of the search (3), the band (3), the factor and value
   // (3), what is beyond (6).
-  op.operations = kFilmWavelengths * 24;
-  op.divisions = kFilmWavelengths;
+  op.operations = kWavelengths * 24;
+  op.divisions = kWavelengths;
   op.bottleneck =
       "gathers: of the bucket's edge, of the edge that is compared, of the band; and pairs stored one by one";
-  op.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
-      v[k] = uniform(random, 0.0F, 2.0F);
-      v[kFilmWavelengths + k] = uniform(random, 360.0F, 830.0F);
-      v[2 * kFilmWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
-    }
-  };
+  op.fill = fill_path;
   op.run = [film](const KernelTable& k, const Arrays& a) {
     const FilmAccess::State& s = FilmAccess::state(*film);
     kernels::FilmLimits limits = s.limits;
     limits.range = limits.weight_range = std::numeric_limits<float>::max();
     // A block at a time: bands and pairs lie one behind the other.
     for (std::size_t block = 0; block < a.blocks; ++block) {
-      const float* radiance[kFilmWavelengths];
-      const float* lambda[kFilmWavelengths];
-      const float* density[kFilmWavelengths];
-      for (std::size_t i = 0; i < kFilmWavelengths; ++i) {
-        radiance[i] = a.in(i) + block * kLanes;
-        lambda[i] = a.in(kFilmWavelengths + i) + block * kLanes;
-        density[i] = a.in(2 * kFilmWavelengths + i) + block * kLanes;
-      }
+      const PathRows path(a, block);
       std::int32_t reasons[kLanes] = {};
-      auto* const band = a.out<std::int32_t>() + block * 3 * kFilmWavelengths * kLanes;
-      auto* const pairs = a.out() + (block * 3 + 1) * kFilmWavelengths * kLanes;
-      k.film_hits({band, pairs, reasons}, {radiance, lambda, density, nullptr, kFilmWavelengths, kLanes},
-                  s.buckets, limits, static_cast<float>(kReference));
+      auto* const band = a.out<std::int32_t>() + block * 3 * kWavelengths * kLanes;
+      auto* const pairs = a.out() + (block * 3 + 1) * kWavelengths * kLanes;
+      k.film_hits({band, pairs, reasons},
+                  {path.values, path.lambda, path.density, nullptr, kWavelengths, kLanes}, s.buckets, limits,
+                  static_cast<float>(kReference));
     }
   };
   op.read_block = [](const std::byte* block, std::size_t lane, double* values) {
-    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
       std::int32_t band = 0;
       std::memcpy(&band, block + (k * kLanes + lane) * sizeof(band), sizeof(band));
       values[k] = static_cast<double>(band);
       float pair[2];
-      std::memcpy(pair, block + (kFilmWavelengths * kLanes + 2 * (k * kLanes + lane)) * sizeof(float),
+      std::memcpy(pair, block + (kWavelengths * kLanes + 2 * (k * kLanes + lane)) * sizeof(float),
                   sizeof(pair));
-      values[kFilmWavelengths + k] = static_cast<double>(pair[0]);
-      values[2 * kFilmWavelengths + k] = static_cast<double>(pair[1]);
+      values[kWavelengths + k] = static_cast<double>(pair[0]);
+      values[2 * kWavelengths + k] = static_cast<double>(pair[1]);
     }
   };
   op.error = [](const double* in, const double* out, double tiny) {
     double worst = kOutOfDomain;
-    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
       const double radiance = in[k];
-      const double lambda = in[kFilmWavelengths + k];
-      const double density = in[2 * kFilmWavelengths + k];
+      const double lambda = in[kWavelengths + k];
+      const double density = in[2 * kWavelengths + k];
       const bool falls = density != 0 && lambda >= 400 && lambda < 700;
       if (out[k] != (falls ? std::floor((lambda - 400) / 5) : -1.0)) return kBeyond;
       worst = std::max(worst, 0.0);
@@ -176,16 +142,15 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
       const double weight = kReference / density;
       // Beyond float's range, or so small that a rounding is not one in 2^24.
       if (weight > 0x1p126 || weight < 0x1p-100 || std::abs(radiance * weight) > 0x1p126) continue;
-      const double off = std::abs(out[kFilmWavelengths + k] - radiance * weight);
+      const double off = std::abs(out[kWavelengths + k] - radiance * weight);
       const double value_error =
           std::max(0.0, off - 2 * tiny * std::max(1.0, weight)) / (0x1p-24 * std::abs(radiance * weight));
       if (radiance != 0 && off > 0) worst = std::max(worst, value_error);
       if (radiance == 0 && off != 0) return kBeyond;
-      worst = std::max(worst, std::abs(out[2 * kFilmWavelengths + k] - weight) / (0x1p-24 * weight));
+      worst = std::max(worst, std::abs(out[2 * kWavelengths + k] - weight) / (0x1p-24 * weight));
     }
     return worst;
   };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

@@ -16,7 +16,6 @@ using kernels::FilmEntries;
 using kernels::KernelTable;
 using kernels::kFilmTilePixels;
 
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
 /// Bands of the film that hits are added to: few, so that many pixels are in the caches.
 constexpr std::size_t kHitBands = 8;
 
@@ -92,13 +91,9 @@ double largest(const Film& film, bool weight) {
   return std::ldexp(coarse_step(film, weight), kFilmCoarseBits);
 }
 
-Operation sums_operation(std::string name, std::size_t limbs) {
-  Operation op;
-  op.group = "film";
-  op.name = std::move(name);
-  op.item = "sample";
-  op.in = {1, 4, Element::kQuad};
-  op.out = {1, limbs, Element::kLimb};
+Operation& sums_operation(std::vector<Operation>& to, std::string name, std::size_t limbs) {
+  Operation& op = add_operation(to, "film", std::move(name), "sample", {1, 4, Element::kQuad},
+                                {1, limbs, Element::kLimb});
   op.cache_only = true;  // a tile of pixels stays in the caches while its samples come
   op.adds = true;
   op.clear = [limbs](const Arrays& a) {
@@ -115,7 +110,7 @@ Operation sums_operation(std::string name, std::size_t limbs) {
 constexpr double kLimbPair = 2 * 9;
 
 void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op = sums_operation("film: add colours", kPixelLimbs);
+  Operation& op = sums_operation(to, "film: add colours", kPixelLimbs);
   op.operations = 4 * kLimbPair;
   op.unit = "of a step of the grid";
   op.bound = 0.5;
@@ -137,24 +132,24 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     }
     return worst;
   };
-  to.push_back(op);
 
   // As a filter spreads them: a factor for each pixel reached.
-  op.name = "film: add colours with filter weights";
-  op.item = "pixel reached";
-  op.operations += 4;
-  op.bottleneck = "one entry after another, as two may reach the same pixel";
-  op.unit = "u and half a step of the grid";
-  op.bound = 1;
-  op.run = [film](const KernelTable& k, const Arrays& a) {
+  Operation& spread = to.emplace_back(Operation(to.back()));
+  spread.name = "film: add colours with filter weights";
+  spread.item = "pixel reached";
+  spread.operations += 4;
+  spread.bottleneck = "one entry after another, as two may reach the same pixel";
+  spread.unit = "u and half a step of the grid";
+  spread.bound = 1;
+  spread.run = [film](const KernelTable& k, const Arrays& a) {
     over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, std::int64_t* const* tiles) {
       entries.sample = each_sample();
       entries.factor = filter_weights();
       k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
     });
   };
-  op.error = nullptr;
-  op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
+  spread.error = nullptr;
+  spread.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
     const auto factor = static_cast<double>(filter_weights()[lane % kFilmTilePixels]);
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -168,28 +163,28 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     }
     return worst;
   };
-  to.push_back(std::move(op));
 }
 
 void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op = sums_operation("film: add 4 wavelengths to their bands", kernels::kFilmHitLimbs * kHitBands);
-  op.in = {kFilmWavelengths, 2, Element::kQuad};
-  op.touched_bytes = kFilmWavelengths * 4 * sizeof(std::int64_t);
+  Operation& op =
+      sums_operation(to, "film: add 4 wavelengths to their bands", kernels::kFilmHitLimbs * kHitBands);
+  op.in = {kWavelengths, 2, Element::kQuad};
+  op.touched_bytes = kWavelengths * 4 * sizeof(std::int64_t);
   // Two numbers a wavelength, times the factor.
-  op.operations = kFilmWavelengths * 2 * (1 + kLimbPair);
+  op.operations = kWavelengths * 2 * (1 + kLimbPair);
   op.unit = "of a step of the grid";
   op.bound = 0.5;
   op.bottleneck = "two numbers at a time, as each wavelength goes to a band of its own";
   op.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
+    for (std::size_t k = 0; k < 2 * kWavelengths; ++k) v[k] = uniform(random, 0.0F, 2.0F);
   };
   const auto hit_band = [](std::size_t lane, std::size_t k) { return (lane + 2 * k) % kHitBands; };
   op.run = [=](const KernelTable& k, const Arrays& a) {
     // Rows of pairs are as far apart as the planes, and so are those of bands.
     const std::size_t apart = a.source_plane / (2 * sizeof(float));
     thread_local std::vector<std::int32_t> bands;
-    if (bands.size() != apart * kFilmWavelengths) {
-      bands.resize(apart * kFilmWavelengths);
+    if (bands.size() != apart * kWavelengths) {
+      bands.resize(apart * kWavelengths);
       for (std::size_t i = 0; i < bands.size(); ++i) {
         bands[i] = static_cast<std::int32_t>(hit_band(i % apart, i / apart));
       }
@@ -198,15 +193,15 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
                [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
                  k.film_add_hits({tiles, 0, kernels::kFilmHitLimbs * kHitBands},
                                  FilmAccess::state(*film).band_grid, entries,
-                                 {bands.data() + first, a.in() + 2 * first, kFilmWavelengths, apart});
+                                 {bands.data() + first, a.in() + 2 * first, kWavelengths, apart});
                });
   };
   op.admit = [film](float* v) {
-    for (std::size_t k = 0; k < 2 * kFilmWavelengths; ++k) v[k] = held(v[k], largest(*film, k % 2 == 1));
+    for (std::size_t k = 0; k < 2 * kWavelengths; ++k) v[k] = held(v[k], largest(*film, k % 2 == 1));
   };
   op.error_at = [=](std::size_t lane, const double* v, const double* limbs, double tiny) {
     double worst = 0;
-    for (std::size_t k = 0; k < kFilmWavelengths; ++k) {
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
       const double* const of_band = limbs + kernels::kFilmHitLimbs * hit_band(lane, k);
       for (std::size_t c = 0; c < 2; ++c) {
         const double step = coarse_step(*film, c == 1);
@@ -217,11 +212,10 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
     }
     return worst;
   };
-  to.push_back(std::move(op));
 }
 
 void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation op = sums_operation("film: add moments", kPixelLimbs);
+  Operation& op = sums_operation(to, "film: add moments", kPixelLimbs);
   op.operations = 2 * (4 + 7 * 5 + 1);
   op.divisions = 2;
   op.unit = "2^-53";
@@ -265,11 +259,10 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
         error(sum(limbs, 4, kSquares, top), square, top, 4),
         error(sum(limbs, 3, kernels::kFilmWeightSquare, 2 * o.weight_range), w * w, 2 * o.weight_range, 3));
   };
-  to.push_back(std::move(op));
 }
 
 void add_counts(std::vector<Operation>& to) {
-  Operation op = sums_operation("film: count samples", 1);
+  Operation& op = sums_operation(to, "film: count samples", 1);
   op.in = {1, 1, Element::kInt};  // stands for the address that is read
   op.fill = uniform_values(1, 0.0F, 1.0F);
   op.operations = 1;
@@ -281,7 +274,6 @@ void add_counts(std::vector<Operation>& to) {
     });
   };
   op.error = [](const double*, const double* out, double) { return out[0] == 1 ? 0.0 : kBeyond; };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

@@ -10,9 +10,8 @@ namespace spectile::measure {
 
 using SharedFilm = std::shared_ptr<const Film>;
 
-/// Pixels of such a film along a side, wavelengths of a sample, limbs of a pixel's colour and weight.
+/// Pixels of such a film along a side, and limbs of a pixel's colour and weight.
 inline constexpr int kFilmSide = 1024;
-inline constexpr std::size_t kFilmWavelengths = 4;
 inline constexpr std::size_t kPixelLimbs = kernels::kFilmQuadLimbs;
 
 /// Samples on their way to pixels, and what is made of pixels. `spectral` keeps spectra on 60 bands.

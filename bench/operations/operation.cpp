@@ -16,7 +16,6 @@ constexpr double kU = 0x1p-24;
 constexpr double kLargest = std::numeric_limits<float>::max();
 /// From here on float rounds to infinity: half a step beyond its largest number.
 constexpr double kOverflow = 0x1.ffffffp127;
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 /// Error of one value in units of u of the scale.
 double value_error(double value, double reference, double scale, double allowance, bool single,
@@ -39,9 +38,36 @@ double value_error(double value, double reference, double scale, double allowanc
 
 }  // namespace
 
-std::function<double(const double*, const double*, double)> error_against(std::size_t outputs, Oracle oracle,
+Operation& add_operation(std::vector<Operation>& to, const char* group, std::string name, const char* item,
+                         Shape in, Shape out) {
+  Operation& op = to.emplace_back();
+  op.group = group;
+  op.name = std::move(name);
+  op.item = item;
+  op.in = in;
+  op.out = out;
+  return op;
+}
+
+PathRows::PathRows(const Arrays& a, std::size_t block) {
+  for (std::size_t i = 0; i < kWavelengths; ++i) {
+    values[i] = a.in(i) + block * kernels::kLanes;
+    lambda[i] = a.in(kWavelengths + i) + block * kernels::kLanes;
+    density[i] = a.in(2 * kWavelengths + i) + block * kernels::kLanes;
+  }
+}
+
+void fill_path(Random& random, float* values) {
+  for (std::size_t k = 0; k < kWavelengths; ++k) {
+    values[k] = uniform(random, 0.0F, 2.0F);
+    values[kWavelengths + k] = uniform(random, 360.0F, 830.0F);
+    values[2 * kWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
+  }
+}
+
+std::function<double(const double*, const double*, double)> error_against(std::size_t outputs,
                                                                           double roundings, bool single,
-                                                                          double bound) {
+                                                                          double bound, Oracle oracle) {
   return [=, oracle = std::move(oracle)](const double* in, const double* out, double tiny) {
     thread_local std::vector<double> reference;
     thread_local std::vector<double> scale;
@@ -50,10 +76,18 @@ std::function<double(const double*, const double*, double)> error_against(std::s
     oracle(in, reference.data(), scale.data());
     double worst = kOutOfDomain;
     for (std::size_t i = 0; i < outputs; ++i) {
+      if (single) scale[i] = std::abs(reference[i]);
       worst = std::max(worst, value_error(out[i], reference[i], scale[i], roundings * tiny, single, bound));
     }
     return worst;
   };
+}
+
+void* const* line_rows(const Arrays& arrays, std::size_t bands) {
+  thread_local std::vector<void*> rows;
+  rows.resize(bands);
+  for (std::size_t b = 0; b < bands; ++b) rows[b] = arrays.out<std::byte>(b);
+  return rows.data();
 }
 
 float uniform(Random& random, float low, float high) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 #include <spectile/result.hpp>
@@ -69,6 +70,8 @@ struct Arrays {
 
 /// No error: the case lies outside of the domain of the operation's bound.
 inline constexpr double kOutOfDomain = -1;
+/// Beyond any bound.
+inline constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 struct Operation {
   std::string group, name;
@@ -115,10 +118,15 @@ using Oracle = std::function<void(const double* in, double* reference, double* s
 
 /// Evaluates against the oracle. Errors in units of u = 2^-24 of `scale`; `roundings`: of results that may be
 /// below the smallest normal number. Where a sum of magnitudes leaves float's range there is no bound but for
-/// operations that are `single`: rounded once, whose overflow is the infinity that rounding gives.
-std::function<double(const double*, const double*, double)> error_against(std::size_t outputs, Oracle oracle,
+/// operations that are `single`: rounded once, whose overflow is the infinity that rounding gives, and whose
+/// scale is the result's own magnitude.
+std::function<double(const double*, const double*, double)> error_against(std::size_t outputs,
                                                                           double roundings, bool single,
-                                                                          double bound);
+                                                                          double bound, Oracle oracle);
+
+/// Adds an operation, to be completed; the reference holds until the next one is added.
+Operation& add_operation(std::vector<Operation>& to, const char* group, std::string name, const char* item,
+                         Shape in, Shape out = {});
 
 // Constants of some operations.
 inline constexpr float kPowExponent = 2.4F;  ///< of sRGB's encoding
@@ -128,6 +136,21 @@ inline constexpr double kPlanckTemperature = 6504;  ///< K
 inline constexpr double kSecondRadiationNmK = 6.62607015e-34 * 299792458.0 / 1.380649e-23 * 1e9;
 /// Wavelengths as instruments give them: some nanometres apart, never evenly. Units: nm.
 std::vector<float> irregular_knots();
+
+/// Wavelengths of a path, as renderers draw them.
+inline constexpr std::size_t kWavelengths = 4;
+/// Rows of such samples: planes of values, then of wavelengths, then of densities, from a block on.
+struct PathRows {
+  const float* values[kWavelengths];
+  const float* lambda[kWavelengths];
+  const float* density[kWavelengths];
+  explicit PathRows(const Arrays& a, std::size_t block = 0);
+};
+/// Fills one with typical values.
+void fill_path(Random& random, float* values);
+
+/// Rows of a line of an image in the target: a plane a band.
+void* const* line_rows(const Arrays& arrays, std::size_t bands);
 
 /// Uniform in [low, high).
 float uniform(Random& random, float low, float high);

@@ -15,36 +15,25 @@ namespace {
 
 using kernels::KernelTable;
 
-Operation spectrum_operation(std::string name, std::size_t planes, std::size_t bands) {
-  Operation out;
-  out.group = "over the bands";
-  out.name = std::move(name);
-  out.item = "spectrum";
-  out.in = {planes, bands};
-  out.out = {1, 1};
+Operation& spectrum_operation(std::vector<Operation>& to, std::string name, std::size_t planes,
+                              std::size_t bands) {
+  Operation& out = add_operation(to, "over the bands", std::move(name), "spectrum", {planes, bands}, {1, 1});
   out.fill = uniform_values(planes * bands, 0.01F, 1.0F);
   return out;
 }
 
 void add_extremes(std::vector<Operation>& to, std::size_t bands) {
   const auto extreme = [&](const char* name, auto kernel, bool least) {
-    Operation op = spectrum_operation(name, 1, bands);
+    Operation& op = spectrum_operation(to, name, 1, bands);
     op.operations = 2 * static_cast<double>(bands);  // compare, choose
     op.unit = "exact";
     op.run = [=](const KernelTable& k, const Arrays& a) { (k.*kernel)(a.out(), a.in(), bands, a.blocks); };
-    op.error = error_against(
-        1,
-        [=](const double* v, double* reference, double* scale) {
-          double found =
-              least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
-          for (std::size_t i = 0; i < bands; ++i) {
-            if (least ? v[i] < found : found < v[i]) found = v[i];
-          }
-          reference[0] = found;
-          scale[0] = std::abs(found);
-        },
-        1, true, 0);
-    to.push_back(std::move(op));
+    op.error = error_against(1, 1, true, 0, [=](const double* v, double* reference, double* /*scale*/) {
+      reference[0] = least ? kBeyond : -kBeyond;
+      for (std::size_t i = 0; i < bands; ++i) {
+        if (least ? v[i] < reference[0] : reference[0] < v[i]) reference[0] = v[i];
+      }
+    });
   };
   extreme("minimum", &KernelTable::minimum, true);
   extreme("maximum", &KernelTable::maximum, false);
@@ -52,15 +41,14 @@ void add_extremes(std::vector<Operation>& to, std::size_t bands) {
 
 void add_masks(std::vector<Operation>& to, std::size_t bands) {
   const auto mask = [&](const char* name, std::size_t planes, auto run, auto is_reference) {
-    Operation op = spectrum_operation(name, planes, bands);
+    Operation& op = spectrum_operation(to, name, planes, bands);
     op.operations = static_cast<double>(bands);
     op.unit = "exact";
     op.out.element = Element::kMask;
     op.run = run;
     op.error = [=](const double* in, const double* out, double /*tiny*/) {
-      return (out[0] != 0) == is_reference(in) ? 0.0 : std::numeric_limits<double>::infinity();
+      return (out[0] != 0) == is_reference(in) ? 0.0 : kBeyond;
     };
-    to.push_back(std::move(op));
   };
   mask(
       "is_black", 1,
@@ -123,7 +111,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   // Products, sums within runs of eight, sums of the runs.
   const double sums = count + std::ceil(count / static_cast<double>(kernels::kSumRun));
 
-  Operation xyz = spectrum_operation("project to XYZ", 1, n);
+  Operation& xyz = spectrum_operation(to, "project to XYZ", 1, n);
   xyz.group = "colorimetry";
   xyz.out = {3, 1};
   xyz.operations = 3 * (count + sums);
@@ -135,25 +123,18 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     k.project(dst, a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
   };
-  xyz.error = error_against(3, weighted_by(weights, n, 3), count, false, xyz.bound);
-  to.push_back(std::move(xyz));
+  xyz.error = error_against(3, count, false, xyz.bound, weighted_by(weights, n, 3));
 
-  Operation y = spectrum_operation("luminance", 1, n);
+  Operation& y = spectrum_operation(to, "luminance", 1, n);
   y.group = "colorimetry";
   y.operations = count + sums;
   y.bound = count / 8 + 11;
   y.run = [=](const KernelTable& k, const Arrays& a) {
     k.weighted_sum(a.out(), a.in(), ProjectorAccess::luminance_weights(*projector), n, a.blocks);
   };
-  y.error = error_against(1, weighted_by(y_weights, n, 1), count, false, y.bound);
-  to.push_back(std::move(y));
+  y.error = error_against(1, count, false, y.bound, weighted_by(y_weights, n, 1));
 
-  Operation transform;
-  transform.group = "colorimetry";
-  transform.name = "XYZ to linear sRGB";
-  transform.item = "colour";
-  transform.in = {3, 1};
-  transform.out = {3, 1};
+  Operation& transform = add_operation(to, "colorimetry", "XYZ to linear sRGB", "colour", {3, 1}, {3, 1});
   transform.operations = 15;
   transform.bound = 4;  // the matrix's own rounding, a product, two sums
   transform.fill = uniform_values(3, 0.01F, 1.0F);
@@ -168,17 +149,14 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
     const float* const src[3] = {a.in(0), a.in(1), a.in(2)};
     k.transform3(dst, src, matrix->data(), a.n());
   };
-  transform.error = error_against(
-      3,
-      [=](const double* v, double* reference, double* scale) {
+  transform.error =
+      error_against(3, 3, false, transform.bound, [=](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < 9; ++i) {
           const double term = (*exact_matrix)[i] * v[i % 3];
           reference[i / 3] += term;
           scale[i / 3] += std::abs(term);
         }
-      },
-      3, false, transform.bound);
-  to.push_back(std::move(transform));
+      });
   return {};
 }
 

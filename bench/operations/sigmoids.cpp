@@ -18,8 +18,6 @@ using kernels::SigmoidTable;
 
 using Shared = std::shared_ptr<const Upsampler>;
 
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
-
 /// A sample: nine fused multiply-adds, further multiply-adds, the limits, the guess from its bits.
 constexpr double kSigmoidBand = 16;
 
@@ -57,12 +55,7 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidModel& model = *UpsamplerAccess::sigmoid(*upsampler);
   const std::size_t bands = upsampler->bands().count();
   const auto count = static_cast<double>(bands);
-  Operation solve;
-  solve.group = "upsampling";
-  solve.name = "sigmoid: find coefficients";
-  solve.item = "colour";
-  solve.in = {3, 1};
-  solve.out = {3, 1};
+  Operation& solve = add_operation(to, "upsampling", "sigmoid: find coefficients", "colour", {3, 1}, {3, 1});
   solve.unit = "1e-6 of the colour";
   // Bands on which some colours have no sigmoid are bounded by 1e-5 where they are not reported.
   solve.bound = model.covers_unit_cube ? 1 : 10;
@@ -90,16 +83,15 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   const kernels::SigmoidTable table = model.table;
   const bool covers_unit_cube = model.covers_unit_cube;
   solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
-    if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : std::numeric_limits<double>::infinity();
+    if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : kBeyond;
     if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kOutOfDomain;
     // Bands that have no sigmoid for some colours report them.
-    if (std::isnan(c[0])) return covers_unit_cube ? std::numeric_limits<double>::infinity() : kOutOfDomain;
+    if (std::isnan(c[0])) return covers_unit_cube ? kBeyond : kOutOfDomain;
     const auto sum = sigmoid_color(table, c);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
     return worst / 1e-6;
   };
-  to.push_back(std::move(solve));
 }
 
 /// Allowed error of the kernel's sums: each sample's by its own rounding and by its slope times that of the
@@ -122,12 +114,8 @@ std::array<double, 3> sum_rounding(const SigmoidTable& table, const double* c) {
 void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = UpsamplerAccess::sigmoid(*upsampler)->table;
   const auto count = static_cast<double>(table.bands);
-  Operation op;
-  op.group = "upsampling";
-  op.name = "sigmoid: the long way from grey";
-  op.item = "colour";
-  op.in = {3, 1};
-  op.out = {4, 1};
+  Operation& op =
+      add_operation(to, "upsampling", "sigmoid: the long way from grey", "colour", {3, 1}, {4, 1});
   op.unit = "of what counts as found";
   op.bound = 1;
   op.expense = 64;
@@ -172,15 +160,10 @@ void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
     }
     return worst;
   };
-  to.push_back(std::move(op));
 }
 
-Operation evaluation(std::string name, std::size_t bands) {
-  Operation op;
-  op.group = "upsampling";
-  op.name = std::move(name);
-  op.item = "colour";
-  op.in = {3, 1};
+Operation& evaluation(std::vector<Operation>& to, std::string name, std::size_t bands) {
+  Operation& op = add_operation(to, "upsampling", std::move(name), "colour", {3, 1});
   op.operations = kSigmoidBand * static_cast<double>(bands);
   op.unit = "stated bound";
   op.bound = 1;
@@ -203,7 +186,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     }
     return worst;
   };
-  Operation blocks = evaluation("sigmoid: evaluate", bands);
+  Operation& blocks = evaluation(to, "sigmoid: evaluate", bands);
   blocks.out = {1, bands};
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
@@ -212,23 +195,18 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
                      a.non_temporal);
   };
   blocks.error = samples_error;
-  to.push_back(std::move(blocks));
 
   for (const bool half : {false, true}) {
-    Operation line = evaluation(
-        half ? "sigmoid: evaluate to a line of halves" : "sigmoid: evaluate to a line of floats", bands);
+    Operation& line = evaluation(
+        to, half ? "sigmoid: evaluate to a line of halves" : "sigmoid: evaluate to a line of floats", bands);
     line.out = {bands, 1, half ? Element::kHalf : Element::kFloat};
     line.operations += half ? 3 * static_cast<double>(bands) : 0;
     line.cache_only = true;
     line.run = [=](const KernelTable& k, const Arrays& a) {
       const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-      thread_local std::vector<void*> rows;
-      rows.resize(bands);
-      for (std::size_t b = 0; b < bands; ++b) {
-        rows[b] = half ? static_cast<void*>(a.out<std::uint16_t>(b)) : static_cast<void*>(a.out(b));
-      }
-      const kernels::SigmoidSpectra spectra = {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands};
-      (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(rows.data(), spectra, a.n());
+      const kernels::SigmoidSpectra spectra = {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows,
+                                               bands};
+      (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(line_rows(a, bands), spectra, a.n());
     };
     line.error = samples_error;
     if (half) {
@@ -246,11 +224,10 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
         return worst;
       };
     }
-    to.push_back(std::move(line));
   }
 
   // Colours of coefficients, as sums over the bands that are not stored.
-  Operation sums = evaluation("sigmoid: sum to a colour", bands);
+  Operation& sums = evaluation(to, "sigmoid: sum to a colour", bands);
   sums.out = {3, 1};
   sums.operations += (6 + 3.0 / 8) * static_cast<double>(bands);
   sums.run = [=](const KernelTable& k, const Arrays& a) {
@@ -276,15 +253,11 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       worst = std::max(worst, std::abs(out[k] - reference[k]) / (allowed[k] + tiny));
     return worst;
   };
-  to.push_back(std::move(sums));
 }
 
 /// One spectrum at many wavelengths.
 void add_at_wavelengths(std::vector<Operation>& to) {
-  Operation op;
-  op.group = "wavelengths";
-  op.name = "sigmoid at wavelengths";
-  op.item = "wavelength";
+  Operation& op = add_operation(to, "wavelengths", "sigmoid at wavelengths", "wavelength", {});
   // Held between the ends (4), lambda, NaN (2).
   op.operations = kSigmoidBand + 4 + 1 + 2;
   op.divisions = 1;
@@ -307,7 +280,6 @@ void add_at_wavelengths(std::vector<Operation>& to) {
     const double allowed = allowed_at(c, l) + 0x1p-24 * slope * std::abs(l);
     return std::abs(out[0] - sigmoid(c, l)) / allowed;
   };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Upsampling, relighting and gamut: from three numbers to spectra and colours.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,27 +49,26 @@ std::function<double(const double*, const double*, double)> mixture_error(
     const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
   double largest = 0;
   for (const double v : *basis) largest = std::max(largest, std::abs(v));
-  return error_against(
-      rows,
-      [=](const double* rgb, double* reference, double* scale) {
-        // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
-        if (!finite3(rgb)) {
-          const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-          std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-          std::fill_n(scale, rows, std::numeric_limits<double>::max());
-          return;
-        }
-        const Mixture m = find_mixture(rgb);
-        double sum = 0;
-        for (const double w : m.weight) sum += std::abs(w);
-        for (std::size_t row = 0; row < rows; ++row) {
-          double v = 0;
-          for (std::size_t k = 0; k < 3; ++k) v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
-          reference[row] = std::max(v, lowest);
-          scale[row] = sum * largest;
-        }
-      },
-      5 * std::max(1.0, largest), false, 6);  // two differences and three products, each times a basis
+  // Two differences and three products, each times a basis.
+  const double roundings = 5 * std::max(1.0, largest);
+  return error_against(rows, roundings, false, 6, [=](const double* rgb, double* reference, double* scale) {
+    // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
+    if (!finite3(rgb)) {
+      const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
+      std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+      std::fill_n(scale, rows, std::numeric_limits<double>::max());
+      return;
+    }
+    const Mixture m = find_mixture(rgb);
+    double sum = 0;
+    for (const double w : m.weight) sum += std::abs(w);
+    for (std::size_t row = 0; row < rows; ++row) {
+      double v = 0;
+      for (std::size_t k = 0; k < 3; ++k) v += m.weight[k] * (*basis)[row * 7 + m.basis[k]];
+      reference[row] = std::max(v, lowest);
+      scale[row] = sum * largest;
+    }
+  });
 }
 
 std::shared_ptr<const std::vector<double>> flat_basis(const Upsampler& upsampler) {
@@ -79,51 +80,37 @@ std::shared_ptr<const std::vector<double>> flat_basis(const Upsampler& upsampler
 void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
                  const std::string& name) {
   const std::size_t bands = upsampler->bands().count();
-  Operation op;
-  op.group = "upsampling";
-  op.name = "upsample, " + name;
-  op.item = "colour";
-  op.in = {3, 1};
-  op.out = {1, bands};
+  Operation& op = add_operation(to, "upsampling", "upsample, " + name, "colour", {3, 1}, {1, bands});
   op.operations = kMixture + kMixtureBand * static_cast<double>(bands);
   op.can_stream = true;
   op.bound = 6;
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_blocks(a.out(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.blocks, a.non_temporal);
+    k.smits_blocks(a.out(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.blocks,
+                   a.non_temporal);
   };
   op.error = mixture_error(flat_basis(*upsampler), bands, 0);
-  to.push_back(op);
 
   // A line of an image: a row a band, as OpenEXR packs them.
-  op.name = "upsample to a line of floats, " + name;
-  op.out = {bands, 1};
-  op.can_stream = false;
-  op.cache_only = true;
-  op.run = [=](const KernelTable& k, const Arrays& a) {
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    thread_local std::vector<void*> rows;
-    rows.resize(bands);
-    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out(b);
-    k.smits_rows_float(rows.data(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
-  };
-  to.push_back(op);
-
-  op.name = "upsample to a line of halves, " + name;
-  op.out = {bands, 1, Element::kHalf};
-  op.operations = kMixture + (kMixtureBand + 3) * static_cast<double>(bands);
-  op.unit = "half ULP of half";
-  op.bound = 1.001;  // rounding to half, and the float before it
-  op.run = [=](const KernelTable& k, const Arrays& a) {
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    thread_local std::vector<void*> rows;
-    rows.resize(bands);
-    for (std::size_t b = 0; b < bands; ++b) rows[b] = a.out<std::uint16_t>(b);
-    k.smits_rows_half(rows.data(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
-  };
+  for (const bool half : {false, true}) {
+    Operation& line = to.emplace_back(Operation(to.back()));
+    line.name = fmt::format("upsample to a line of {}, {}", half ? "halves" : "floats", name);
+    line.out = {bands, 1, half ? Element::kHalf : Element::kFloat};
+    line.can_stream = false;
+    line.cache_only = true;
+    line.run = [=](const KernelTable& k, const Arrays& a) {
+      const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
+      (half ? k.smits_rows_half : k.smits_rows_float)(
+          line_rows(a, bands), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
+    };
+  }
+  Operation& halves = to.back();
+  halves.operations = kMixture + (kMixtureBand + 3) * static_cast<double>(bands);
+  halves.unit = "half ULP of half";
+  halves.bound = 1.001;  // rounding to half, and the float before it
   const auto basis = flat_basis(*upsampler);
-  op.error = [=](const double* rgb, const double* out, double /*tiny*/) {
+  halves.error = [=](const double* rgb, const double* out, double /*tiny*/) {
     if (!finite3(rgb)) return kOutOfDomain;
     const Mixture m = find_mixture(rgb);
     double worst = 0;
@@ -141,16 +128,10 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     }
     return worst;
   };
-  to.push_back(std::move(op));
 }
 
 void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relighter>& relighter) {
-  Operation op;
-  op.group = "relighting";
-  op.name = "relight, smits-exact";
-  op.item = "colour";
-  op.in = {3, 1};
-  op.out = {3, 1};
+  Operation& op = add_operation(to, "relighting", "relight, smits-exact", "colour", {3, 1}, {3, 1});
   op.operations = kMixture + 3 * (kMixtureBand - 1);
   op.bound = 6;
   op.bottleneck =
@@ -166,18 +147,12 @@ void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relight
     for (std::size_t k = 0; k < 7; ++k)
       basis->push_back(RelighterAccess::table(*relighter)[row * kSmitsRow + k]);
   }
-  op.error = mixture_error(basis, 3, -std::numeric_limits<double>::infinity());
-  to.push_back(std::move(op));
+  op.error = mixture_error(basis, 3, -kBeyond);
 }
 
 void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
   const std::array<float, 3> weights = upsampler.luminance();
-  Operation op;
-  op.group = "relighting";
-  op.name = "limit to the gamut";
-  op.item = "colour";
-  op.in = {3, 1};
-  op.out = {3, 1};
+  Operation& op = add_operation(to, "relighting", "limit to the gamut", "colour", {3, 1}, {3, 1});
   op.unit = "1e-6 of the largest component";
   op.bound = 1;
   // Half of the colours are outside.
@@ -200,14 +175,12 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
     double before = 0;
     double after = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(out[k] >= (rgb[k] < 0 ? 0 : -tiny) && out[k] <= 1))
-        return std::numeric_limits<double>::infinity();
+      if (!(out[k] >= (rgb[k] < 0 ? 0 : -tiny) && out[k] <= 1)) return kBeyond;
       before += static_cast<double>(weights[k]) * rgb[k];
       after += static_cast<double>(weights[k]) * out[k];
     }
     return std::abs(std::clamp(before, 0.0, 1.0) - after) / (1e-6 * most);
   };
-  to.push_back(std::move(op));
 }
 
 }  // namespace

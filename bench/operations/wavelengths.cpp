@@ -21,13 +21,9 @@ using kernels::KernelTable;
 
 constexpr float kFirstNm = 360;
 constexpr std::int32_t kIntervals = 470;  // to 830 nm
-constexpr std::size_t kWavelengths = 4;   // of a path, as renderers draw them
 
-Operation wavelength_operation(std::string name) {
-  Operation out;
-  out.group = "wavelengths";
-  out.name = std::move(name);
-  out.item = "wavelength";
+Operation& wavelength_operation(std::vector<Operation>& to, std::string name) {
+  Operation& out = add_operation(to, "wavelengths", std::move(name), "wavelength", {});
   out.fill = uniform_values(1, 360.0F, 830.0F);
   return out;
 }
@@ -60,7 +56,7 @@ std::array<double, 2> at_wavelength(const std::vector<float>& pairs, double lamb
 
 void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   const auto pairs = value_pairs(spectrum);
-  Operation even = wavelength_operation("look up at 1 nm");
+  Operation& even = wavelength_operation(to, "look up at 1 nm");
   // Place (8), a gather of a pair (two of its loads a lane), the line (2), what is outside (1), NaN (2).
   even.operations = 13;
   even.bottleneck = "gathers: two loads a lane from the table";
@@ -68,21 +64,17 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   even.run = [=](const KernelTable& k, const Arrays& a) {
     k.interpolate_even(a.out(), a.in(), even_table(*pairs), a.n());
   };
-  even.error = error_against(
-      1,
-      [=](const double* v, double* reference, double* scale) {
-        if (std::isnan(v[0])) {
-          reference[0] = v[0];
-          return;
-        }
-        const auto found = at_wavelength(*pairs, v[0]);
-        reference[0] = found[0];
-        scale[0] = found[1];
-      },
-      1, false, even.bound);
-  to.push_back(std::move(even));
+  even.error = error_against(1, 1, false, even.bound, [=](const double* v, double* reference, double* scale) {
+    if (std::isnan(v[0])) {
+      reference[0] = v[0];
+      return;
+    }
+    const auto found = at_wavelength(*pairs, v[0]);
+    reference[0] = found[0];
+    scale[0] = found[1];
+  });
 
-  Operation project = wavelength_operation("project wavelengths to XYZ");
+  Operation& project = wavelength_operation(to, "project wavelengths to XYZ");
   project.item = "sample of 4 wavelengths";
   project.in = {3 * kWavelengths, 1};
   project.out = {3, 1};
@@ -90,29 +82,15 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   project.divisions = kWavelengths;
   project.bottleneck = "gathers: six loads a lane and wavelength from the curves";
   project.bound = kWavelengths + 6;
-  project.fill = [](Random& random, float* v) {
-    for (std::size_t k = 0; k < kWavelengths; ++k) {
-      v[k] = uniform(random, 0.0F, 2.0F);
-      v[kWavelengths + k] = uniform(random, 360.0F, 830.0F);
-      v[2 * kWavelengths + k] = uniform(random, 1e-3F, 5e-3F);
-    }
-  };
+  project.fill = fill_path;
   project.run = [=](const KernelTable& k, const Arrays& a) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* values[kWavelengths];
-    const float* lambda[kWavelengths];
-    const float* density[kWavelengths];
-    for (std::size_t i = 0; i < kWavelengths; ++i) {
-      values[i] = a.in(i);
-      lambda[i] = a.in(kWavelengths + i);
-      density[i] = a.in(2 * kWavelengths + i);
-    }
+    const PathRows path(a);
     const EvenTable curves[3] = {even_table(*pairs), even_table(*pairs), even_table(*pairs)};
-    k.project_wavelengths(dst, {values, lambda, density, kWavelengths}, curves, 0.25F, a.n());
+    k.project_wavelengths(dst, {path.values, path.lambda, path.density, kWavelengths}, curves, 0.25F, a.n());
   };
   project.error = error_against(
-      3,
-      [=](const double* v, double* reference, double* scale) {
+      3, 2 * kWavelengths, false, project.bound, [=](const double* v, double* reference, double* scale) {
         double sum = 0;
         double magnitudes = 0;
         for (std::size_t i = 0; i < kWavelengths; ++i) {
@@ -130,9 +108,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
           reference[c] = 0.25 * sum;
           scale[c] = 0.25 * magnitudes;
         }
-      },
-      2 * kWavelengths, false, project.bound);
-  to.push_back(std::move(project));
+      });
 }
 
 /// A spectrum between irregular knots.
@@ -154,7 +130,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
   }
   SPECTILE_ASSIGN(auto index, index_knots(table->nm));
   table->index = std::move(index);
-  Operation op = wavelength_operation("look up between irregular knots");
+  Operation& op = wavelength_operation(to, "look up between irregular knots");
   // The bucket (4), a gather and a comparison a halving (3 each), the line (3), what is outside (4), NaN (2).
   op.operations = 13 + 3.0 * table->index.halvings;
   op.bottleneck = "gathers: of the bucket's knot, of each knot that is compared, of value and slope";
@@ -170,25 +146,20 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     knots.halvings = table->index.halvings;
     k.interpolate_knots(a.out(), a.in(), knots, a.n());
   };
-  op.error = error_against(
-      1,
-      [table](const double* v, double* reference, double* scale) {
-        if (std::isnan(v[0])) {
-          reference[0] = v[0];
-          return;
-        }
-        const auto& nm = table->nm;
-        const auto above = std::upper_bound(
-            nm.begin(), nm.end(), v[0], [](double x, float knot) { return x < static_cast<double>(knot); });
-        if (above == nm.begin() || v[0] > static_cast<double>(nm.back())) return;
-        const auto i = static_cast<std::size_t>(above - nm.begin()) - 1;
-        const double from =
-            (v[0] - static_cast<double>(nm[i])) * static_cast<double>(table->pairs[2 * i + 1]);
-        reference[0] = static_cast<double>(table->pairs[2 * i]) + from;
-        scale[0] = std::abs(static_cast<double>(table->pairs[2 * i])) + std::abs(from);
-      },
-      2, false, op.bound);
-  to.push_back(std::move(op));
+  op.error = error_against(1, 2, false, op.bound, [table](const double* v, double* reference, double* scale) {
+    if (std::isnan(v[0])) {
+      reference[0] = v[0];
+      return;
+    }
+    const auto& nm = table->nm;
+    const auto above = std::upper_bound(nm.begin(), nm.end(), v[0],
+                                        [](double x, float knot) { return x < static_cast<double>(knot); });
+    if (above == nm.begin() || v[0] > static_cast<double>(nm.back())) return;
+    const auto i = static_cast<std::size_t>(above - nm.begin()) - 1;
+    const double from = (v[0] - static_cast<double>(nm[i])) * static_cast<double>(table->pairs[2 * i + 1]);
+    reference[0] = static_cast<double>(table->pairs[2 * i]) + from;
+    scale[0] = std::abs(static_cast<double>(table->pairs[2 * i])) + std::abs(from);
+  });
   return {};
 }
 
@@ -199,7 +170,7 @@ void add_planck(std::vector<Operation>& to) {
   table.factor = 1;
   table.exponent = static_cast<float>(exponent);
   table.exponent_rest = static_cast<float>(exponent - static_cast<double>(table.exponent));
-  Operation op = wavelength_operation("black body");
+  Operation& op = wavelength_operation(to, "black body");
   // Finite and positive (5), units, the exponent and its rest (7), the series, its factors (12), NaN (3).
   op.operations = 5 + 2 + 7 + kernels::kPlanckTerms + 14 + 3;
   op.divisions = 2;
@@ -208,19 +179,18 @@ void add_planck(std::vector<Operation>& to) {
   op.run = [=](const KernelTable& k, const Arrays& a) { k.planck(a.out(), a.in(), table, a.n()); };
   op.error = [=](const double* v, const double* out, double tiny) {
     const double lambda = v[0];
-    if (std::isnan(lambda)) return std::isnan(out[0]) ? 0.0 : std::numeric_limits<double>::infinity();
+    if (std::isnan(lambda)) return std::isnan(out[0]) ? 0.0 : kBeyond;
     // Domain of the bound: 0.1 to 10^7 nm; elsewhere it must be a number that is not below 0.
     if (!(lambda >= 0.1 && lambda <= 1e7)) {
-      return out[0] >= 0 ? 0.0 : std::numeric_limits<double>::infinity();
+      return out[0] >= 0 ? 0.0 : kBeyond;
     }
     const double l = lambda / kUnitNm;
     const double x = exponent / l;
     const double reference = x > 252 ? 0 : 1 / (std::pow(l, 5) * std::expm1(x * std::numbers::ln2));
     const double off = std::max(0.0, std::abs(out[0] - reference) - 2 * tiny);
     if (off == 0) return 0.0;
-    return reference > 0 ? off / (0x1p-24 * reference) : std::numeric_limits<double>::infinity();
+    return reference > 0 ? off / (0x1p-24 * reference) : kBeyond;
   };
-  to.push_back(std::move(op));
 }
 
 void add_gaussians(std::vector<Operation>& to) {
@@ -228,7 +198,7 @@ void add_gaussians(std::vector<Operation>& to) {
   // XYZ Color Matching Functions, J. Computer Graphics Techniques 2(2), 2013.
   const std::vector<kernels::GaussianLobe> lobes = {
       {0.362, 442.0, 0.0624, 0.0374}, {1.056, 599.8, 0.0264, 0.0323}, {-0.065, 501.1, 0.0490, 0.0382}};
-  Operation op = wavelength_operation("sum of 3 Gaussians");
+  Operation& op = wavelength_operation(to, "sum of 3 Gaussians");
   // In double, a lobe: place (4), its square and factor (2), hold (4), the power of two, amplitude and sum.
   op.operations = 4 + 6.0 * (4 + 2 + 4 + 4 + 2 * kernels::kExpTerms - 1 + 2 + 2);
   op.bottleneck = "three series, chains of dependent multiply-adds in double";
@@ -236,19 +206,15 @@ void add_gaussians(std::vector<Operation>& to) {
   op.run = [=](const KernelTable& k, const Arrays& a) {
     k.gaussians(a.out(), a.in(), lobes.data(), lobes.size(), a.n());
   };
-  op.error = error_against(
-      1,
-      [=](const double* v, double* reference, double* scale) {
-        for (const auto& lobe : lobes) {
-          const double from = v[0] - lobe.mean_nm;
-          const double z = from * (from < 0 ? lobe.per_sigma_left : lobe.per_sigma_right);
-          const double term = lobe.amplitude * std::exp(-0.5 * z * z);
-          reference[0] += term;
-          scale[0] += std::abs(term);
-        }
-      },
-      1, false, op.bound);
-  to.push_back(std::move(op));
+  op.error = error_against(1, 1, false, op.bound, [=](const double* v, double* reference, double* scale) {
+    for (const auto& lobe : lobes) {
+      const double from = v[0] - lobe.mean_nm;
+      const double z = from * (from < 0 ? lobe.per_sigma_left : lobe.per_sigma_right);
+      const double term = lobe.amplitude * std::exp(-0.5 * z * z);
+      reference[0] += term;
+      scale[0] += std::abs(term);
+    }
+  });
 }
 
 void add_draws(std::vector<Operation>& to) {
@@ -264,7 +230,8 @@ void add_draws(std::vector<Operation>& to) {
   d.by = std::tanh(kSteepness * (830 - kCentre)) + d.from;
   d.peak = kSteepness / d.by;
   for (const bool visible : {false, true}) {
-    Operation op = wavelength_operation(visible ? "draw 4 wavelengths, visible" : "draw 4 wavelengths, even");
+    Operation& op =
+        wavelength_operation(to, visible ? "draw 4 wavelengths, visible" : "draw 4 wavelengths, even");
     op.item = "draw";
     op.out = {2 * kWavelengths, 1};
     op.fill = uniform_values(1, 0.0F, 1.0F);
@@ -288,8 +255,7 @@ void add_draws(std::vector<Operation>& to) {
       (visible ? k.visible_wavelengths : k.even_wavelengths)(lambda, density, a.in(), d, kWavelengths, a.n());
     };
     op.error = error_against(
-        2 * kWavelengths,
-        [=](const double* v, double* reference, double* scale) {
+        2 * kWavelengths, 0, false, op.bound, [=](const double* v, double* reference, double* scale) {
           const double first = std::isnan(v[0]) ? v[0] : std::clamp(v[0], 0.0, 1 - 0x1p-24);
           for (std::size_t i = 0; i < kWavelengths; ++i) {
             // A sum in float that reaches 1 starts anew at 0, and its rounding with it.
@@ -303,9 +269,7 @@ void add_draws(std::vector<Operation>& to) {
             scale[i] = std::abs(reference[i]);
             scale[kWavelengths + i] = std::abs(reference[kWavelengths + i]);
           }
-        },
-        0, false, op.bound);
-    to.push_back(std::move(op));
+        });
   }
 }
 

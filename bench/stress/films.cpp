@@ -14,8 +14,6 @@
 namespace spectile::measure {
 namespace {
 
-constexpr double kBeyond = std::numeric_limits<double>::infinity();
-
 /// A film of one pixel a lane that keeps spectra, so that a sample is what was added.
 Result<Film> make_film(int width, int height, const Bands& bands, bool negative_weights) {
   FilmOptions o;

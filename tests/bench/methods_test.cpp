@@ -116,8 +116,8 @@ TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndNinetyFiveOfAHundredDoNot
 
 TEST(Evaluation, AllowsTheBoundAndNotMore) {
   const auto evaluate_errors = error_against(
-      1, [](const double* in, double* reference, double* scale) { reference[0] = scale[0] = in[0]; }, 1,
-      false, 2);
+      1, 1, false, 2,
+      [](const double* in, double* reference, double* scale) { reference[0] = scale[0] = in[0]; });
   const double in = 1;
   const auto error = [&](double out) { return evaluate_errors(&in, &out, 0); };
   EXPECT_EQ(error(1), 0);
@@ -134,8 +134,8 @@ TEST(Evaluation, KnowsOverflowAndWhatIsNotFinite) {
     reference[0] = in[0];
     scale[0] = std::abs(in[0]);
   };
-  const auto once = error_against(1, value, 1, true, 1);
-  const auto sum = error_against(1, value, 1, false, 1);
+  const auto once = error_against(1, 1, true, 1, value);
+  const auto sum = error_against(1, 1, false, 1, value);
   const auto at = [](const auto& evaluate_errors, double in, double out) {
     return evaluate_errors(&in, &out, 0);
   };
