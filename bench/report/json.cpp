@@ -8,10 +8,6 @@ namespace {
 // Keeps the order of what it holds. Numbers that are not finite are written as null.
 using Json = nlohmann::ordered_json;
 
-const char* level_name(MemoryLevel level) {
-  return level == MemoryLevel::kCache ? "cache" : "memory";
-}
-
 Json units() {
   return {
       {"bytes", "machine.*_cache, machine.*_bytes, ways.bytes (a pixel, in memory or in a file)"},
@@ -36,127 +32,52 @@ Json units() {
       {"levels", "cache: second-level cache; memory: DRAM"}};
 }
 
-Json to_json(const BenchmarkMachine& m) {
-  return {{"processor", m.processor},
-          {"system", m.system},
-          {"compiler", m.compiler},
-          {"version", m.version},
-          {"date", m.date},
-          {"cores", m.cores},
-          {"second_level_cache", m.second_level_cache},
-          {"last_level_cache", m.last_level_cache},
-          {"cache_bytes", m.cache_bytes},
-          {"memory_bytes", m.memory_bytes},
-          {"isas", m.isas}};
-}
-
-Json to_json(const MachineLimit& l) {
-  return {{"isa", l.isa},
-          {"threads", l.threads},
-          {"level", level_name(l.level)},
-          {"load", l.load},
-          {"store", l.store},
-          {"stream", l.stream},
-          {"copy", l.copy},
-          {"multiply_add", l.multiply_add},
-          {"fused_multiply_add", l.fused_multiply_add},
-          {"divide", l.divide},
-          {"spread", l.spread}};
-}
-
-Json to_json(const OperationSpeed& o) {
-  return {{"group", o.group},
-          {"name", o.name},
-          {"isa", o.isa},
-          {"threads", o.threads},
-          {"level", level_name(o.level)},
-          {"item", o.item},
-          {"items_per_second", o.items_per_second},
-          {"bytes_per_second", o.bytes_per_second},
-          {"spread", o.spread},
-          {"limit", o.limit},
-          {"fraction", o.fraction},
-          {"error", o.error},
-          {"bound", o.bound},
-          {"error_unit", o.error_unit},
-          {"note", o.note}};
-}
-
-Json to_json(const ThreadScaling& s) {
-  return {{"name", s.name},
-          {"level", level_name(s.level)},
-          {"threads", s.threads},
-          {"speed_up", s.speed_up},
-          {"limit", s.limit}};
-}
-
-Json to_json(const BaselineSpeed& b) {
-  return {{"group", b.group},
-          {"name", b.name},
-          {"item", b.item},
-          {"nanoseconds", b.nanoseconds},
-          {"baseline_nanoseconds", b.baseline_nanoseconds},
-          {"fused_nanoseconds", b.fused_nanoseconds},
-          {"ratio", b.ratio},
-          {"fused_ratio", b.fused_ratio},
-          {"spread", b.spread},
-          {"limit", b.limit},
-          {"fraction", b.fraction},
-          {"error", b.error},
-          {"baseline_error", b.baseline_error},
-          {"error_unit", b.error_unit}};
-}
-
-Json to_json(const ColorError& e) {
-  return {{"mean", e.mean}, {"percentile95", e.percentile95}, {"maximum", e.maximum}};
-}
-
-Json to_json(const MethodSpeed& w) {
-  return {
-      {"job", w.job},     {"light", w.light},          {"spiky", w.line_spectrum},     {"family", w.family},
-      {"name", w.name},   {"bands", w.bands},          {"nanoseconds", w.nanoseconds}, {"spread", w.spread},
-      {"bytes", w.bytes}, {"error", to_json(w.error)}, {"frontier", w.frontier}};
-}
-
-Json to_json(const RepresentationSpeed& r) {
-  return {{"light", r.light},     {"spiky", r.line_spectrum},
-          {"name", r.name},       {"coefficients", r.coefficients},
-          {"bounces", r.bounces}, {"nanoseconds", r.nanoseconds},
-          {"spread", r.spread},   {"error", to_json(r.error)}};
-}
-
-Json to_json(const StressResult& s) {
-  return {{"operation", s.operation}, {"inputs", s.inputs},        {"unit", s.unit},
-          {"bound", s.bound},         {"worst", s.worst},          {"cases", s.cases},
-          {"beyond", s.beyond},       {"worst_case", s.worst_case}};
-}
-
-Json to_json(const BenchmarkAdvice& a) {
-  return {{"job", a.job}, {"light", a.light}, {"sentence", a.sentence}};
-}
-
-template <class T>
-Json json_list(const std::vector<T>& items) {
-  Json out = Json::array();
-  for (const T& item : items) out.push_back(to_json(item));
-  return out;
-}
-
 }  // namespace
 
+// Found by the library's own conversions of the types that hold these.
+static void to_json(Json& json, MemoryLevel level) {
+  json = level == MemoryLevel::kCache ? "cache" : "memory";
+}
+
+/// A structure's members under their own names.
+#define SPECTILE_JSON(Type, ...)                                             \
+  static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t) {  \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
+  }
+SPECTILE_JSON(BenchmarkMachine, processor, system, compiler, version, date, cores, second_level_cache,
+              last_level_cache, cache_bytes, memory_bytes, isas)
+SPECTILE_JSON(MachineLimit, isa, threads, level, load, store, stream, copy, multiply_add, fused_multiply_add,
+              divide, spread)
+SPECTILE_JSON(OperationSpeed, group, name, isa, threads, level, item, items_per_second, bytes_per_second,
+              spread, limit, fraction, error, bound, error_unit, note)
+SPECTILE_JSON(ThreadScaling, name, level, threads, speed_up, limit)
+SPECTILE_JSON(BaselineSpeed, group, name, item, nanoseconds, baseline_nanoseconds, fused_nanoseconds, ratio,
+              fused_ratio, spread, limit, fraction, error, baseline_error, error_unit)
+SPECTILE_JSON(ColorError, mean, percentile95, maximum)
+SPECTILE_JSON(StressResult, operation, inputs, unit, bound, worst, cases, beyond, worst_case)
+SPECTILE_JSON(BenchmarkAdvice, job, light, sentence)
+#undef SPECTILE_JSON
+
+static void to_json(Json& json, const MethodSpeed& w) {
+  json = {{"job", w.job},     {"light", w.light}, {"spiky", w.line_spectrum},     {"family", w.family},
+          {"name", w.name},   {"bands", w.bands}, {"nanoseconds", w.nanoseconds}, {"spread", w.spread},
+          {"bytes", w.bytes}, {"error", w.error}, {"frontier", w.frontier}};
+}
+
+static void to_json(Json& json, const RepresentationSpeed& r) {
+  json = {{"light", r.light},     {"spiky", r.line_spectrum},
+          {"name", r.name},       {"coefficients", r.coefficients},
+          {"bounces", r.bounces}, {"nanoseconds", r.nanoseconds},
+          {"spread", r.spread},   {"error", r.error}};
+}
+
 std::string benchmark_to_json(const BenchmarkReport& report) {
-  const Json json = {{"units", units()},
-                     {"machine", to_json(report.machine)},
-                     {"seconds", report.seconds},
-                     {"disturbed", report.disturbed},
-                     {"limits", json_list(report.limits)},
-                     {"operations", json_list(report.operations)},
-                     {"scaling", json_list(report.scaling)},
-                     {"baseline", json_list(report.baseline)},
-                     {"ways", json_list(report.methods)},
-                     {"representations", json_list(report.representations)},
-                     {"stress", json_list(report.stress)},
-                     {"advice", json_list(report.advice)}};
+  const Json json = {{"units", units()},          {"machine", report.machine},
+                     {"seconds", report.seconds}, {"disturbed", report.disturbed},
+                     {"limits", report.limits},   {"operations", report.operations},
+                     {"scaling", report.scaling}, {"baseline", report.baseline},
+                     {"ways", report.methods},    {"representations", report.representations},
+                     {"stress", report.stress},   {"advice", report.advice}};
   // Text that is no UTF-8 is mended rather than refused: names are for people.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
