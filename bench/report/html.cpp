@@ -11,7 +11,7 @@ namespace spectile {
 namespace report {
 namespace {
 
-std::string machine_part(const BenchmarkReport& report) {
+Section machine_section(const BenchmarkReport& report) {
   const BenchmarkMachine& m = report.machine;
   std::string isas;
   for (const std::string& isa : m.isas) isas += (isas.empty() ? "" : ", ") + isa;
@@ -32,9 +32,7 @@ std::string machine_part(const BenchmarkReport& report) {
   entry("spectile", m.version);
   entry("Date", m.date);
   if (report.seconds > 0) entry("The run took", number(report.seconds) + " s");
-  return fmt::format(
-      "<section id=\"machine\">\n<h2>Machine and build</h2>\n<dl class=\"facts\">\n{}</dl>\n</section>\n",
-      list);
+  return make_section("machine", "Machine", "Machine and build", "<dl class=\"facts\">\n" + list + "</dl>\n");
 }
 
 std::string warning_part(const BenchmarkReport& report) {
@@ -51,35 +49,32 @@ std::string warning_part(const BenchmarkReport& report) {
 }
 
 Section advice_section(const BenchmarkReport& report) {
-  Section section{"advice", "Which to use", ""};
-  if (report.advice.empty()) return section;
-  section.code = "<section id=\"advice\">\n<h2>Which to use for a given error</h2>\n";
+  if (report.advice.empty()) return {};
+  std::string body = "";
   for (const std::string& job : distinct(report.advice, [](const auto& a) { return a.job; })) {
-    section.code += fmt::format("<h3>{}</h3>\n<ul class=\"advice\">\n", escaped(job));
+    body += fmt::format("<h3>{}</h3>\n<ul class=\"advice\">\n", escaped(job));
     for (const BenchmarkAdvice& a : report.advice) {
       if (a.job != job) continue;
-      section.code += a.light.empty() ? fmt::format("<li>{}</li>\n", escaped(a.sentence))
-                                      : fmt::format("<li><strong>{}</strong> {}</li>\n", escaped(a.light),
-                                                    escaped(a.sentence));
+      body += a.light.empty()
+                  ? fmt::format("<li>{}</li>\n", escaped(a.sentence))
+                  : fmt::format("<li><strong>{}</strong> {}</li>\n", escaped(a.light), escaped(a.sentence));
     }
-    section.code += "</ul>\n";
+    body += "</ul>\n";
   }
-  section.code += "</section>\n";
-  return section;
+  return make_section("advice", "Which to use", "Which to use for a given error", body);
 }
 
 Section reproduce_section(const BenchmarkReport& report) {
   const std::string version = report.machine.version.empty() ? "" : " " + report.machine.version;
-  return {
-      "reproduce", "Reproduce",
+  return make_section(
+      "reproduce", "Reproduce", "How to reproduce this page",
       fmt::format(
-          "<section id=\"reproduce\">\n<h2>How to reproduce this page</h2>\n"
           "<p>With spectile{} on an idle machine; <code>spectile bench --help</code> lists what can be left "
           "out or chosen:</p>\n<pre><code>spectile bench --report out.html</code></pre>\n"
           "<p>Times vary with the machine and from run to run: the spread is half the range of the middle "
           "half of the runs, over their median. Errors do not vary: every instruction set and number of "
-          "threads gives the same bits.</p>\n</section>\n",
-          escaped(version))};
+          "threads gives the same bits.</p>\n",
+          escaped(version)));
 }
 
 std::string summary(const BenchmarkReport& report) {
@@ -113,10 +108,27 @@ std::string navigation(const std::vector<Section>& sections) {
 }
 
 }  // namespace
+
+Section make_section(const std::string& id, const std::string& name, const std::string& heading,
+                     const std::string& body) {
+  return {id, name, fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, heading, body)};
+}
+
+std::string light_head(const std::string& id, const std::string& light, bool line_spectrum,
+                       const Chart& chart, const char* note) {
+  std::string out = fmt::format("<section{} class=\"light\">\n<h3>{}{}</h3>\n", id, escaped(light),
+                                line_spectrum ? " <span class=\"badge\">has lines</span>" : "");
+  const std::string wide = svg_chart(chart, ChartForm::kWide);
+  if (wide.empty()) return out;
+  return out + fmt::format("<figure>\n<figcaption>{}. {}</figcaption>\n{}{}</figure>\n", escaped(chart.title),
+                           note, wide, svg_chart(chart, ChartForm::kNarrow));
+}
+
 }  // namespace report
 
 std::string benchmark_to_html(const BenchmarkReport& benchmark) {
   using report::Section;
+  const Section machine = report::machine_section(benchmark);
   std::vector<Section> sections = {report::advice_section(benchmark)};
   for (Section& section : report::method_sections(benchmark)) sections.push_back(std::move(section));
   sections.push_back(report::representation_section(benchmark));
@@ -144,7 +156,7 @@ std::string benchmark_to_html(const BenchmarkReport& benchmark) {
       "about 1 can just be seen, so that you can take the fastest that is good enough.</p>\n{}</header>\n{}"
       "<main>\n{}{}{}</main>\n</body>\n</html>\n",
       title, report::kStyleSheet, title, report::summary(benchmark), report::navigation(sections),
-      report::machine_part(benchmark), report::warning_part(benchmark), body);
+      machine.code, report::warning_part(benchmark), body);
 }
 
 }  // namespace spectile

@@ -72,16 +72,13 @@ Chart make_chart(const std::vector<Numbered>& methods, const std::vector<std::st
     series.style = static_cast<int>(family);
     for (const auto& [method, place] : methods) {
       if (method->family != families[family]) continue;
-      ChartMark mark;
-      mark.x = method->nanoseconds;
-      mark.y = method->error.mean;
-      mark.title = fmt::format("{}. {}: {} ns, CIEDE2000 {} mean, {} at most{}", place, method->name,
-                               number(method->nanoseconds), number(method->error.mean),
-                               number(method->error.maximum), method->frontier ? "; on the frontier" : "");
-      mark.label = method->name;
-      mark.number = fmt::format("{}", place);
-      mark.frontier = method->frontier;
-      series.marks.push_back(std::move(mark));
+      const std::string number_text = fmt::format("{}", place);
+      const std::string title =
+          fmt::format("{}. {}: {} ns, CIEDE2000 {} mean, {} at most{}", place, method->name,
+                      number(method->nanoseconds), number(method->error.mean), number(method->error.maximum),
+                      method->frontier ? "; on the frontier" : "");
+      series.marks.push_back(
+          {method->nanoseconds, method->error.mean, title, method->name, number_text, method->frontier});
     }
     chart.series.push_back(std::move(series));
   }
@@ -111,15 +108,7 @@ std::string method_table(const std::vector<Numbered>& methods, const std::vector
       fmt::format(
           "{}, {}: every method, the fastest first. ns: a pixel, one thread; mean, 95 %, max: CIEDE2000",
           short_name(first.job), first.light),
-      {{"method", true},
-       {"ns"},
-       {"mean"},
-       {"95 %"},
-       {"max"},
-       {"spread"},
-       {"bands"},
-       {"bytes a pixel"},
-       {"family", true}});
+      {"method", "ns", "mean", "95 %", "max", "spread", "bands", "bytes a pixel", "family"}, {0, 8});
   for (const Numbered& entry : methods) {
     const MethodSpeed& w = *entry.method;
     table.row({name_cell(entry, family_style(families, w.family)), html(number(w.nanoseconds)),
@@ -163,17 +152,10 @@ std::string light_part(const std::vector<Numbered>& methods, const std::vector<s
                        const std::string& id) {
   const MethodSpeed& first = *methods.front().method;
   const Chart chart = make_chart(methods, families);
-  std::string out =
-      fmt::format("<section id=\"{}\" class=\"light\">\n<h3>{}{}</h3>\n", id, escaped(first.light),
-                  first.line_spectrum ? " <span class=\"badge\">has lines</span>" : "");
-  const std::string wide = svg_chart(chart, ChartForm::kWide);
-  if (!wide.empty()) {
-    out += fmt::format(
-        "<figure>\n<figcaption>{}. Lower and further left is better; numbers are those of the table's "
-        "rows.</figcaption>\n{}{}</figure>\n",
-        escaped(chart.title), wide, svg_chart(chart, ChartForm::kNarrow));
-  }
-  return out + against_baseline(methods) + method_table(methods, families) + "</section>\n";
+  const std::string head =
+      light_head(fmt::format(" id=\"{}\"", id), first.light, first.line_spectrum, chart,
+                 "Lower and further left is better; numbers are those of the table's rows.");
+  return head + against_baseline(methods) + method_table(methods, families) + "</section>\n";
 }
 
 }  // namespace
@@ -184,28 +166,29 @@ std::vector<Section> method_sections(const BenchmarkReport& report) {
   const std::vector<std::string> lights =
       distinct(report.methods, [](const MethodSpeed& w) { return w.light; });
   for (const std::string& job : distinct(report.methods, [](const MethodSpeed& w) { return w.job; })) {
-    Section section;
-    section.id = fmt::format("job-{}", sections.size() + 1);
-    section.name = "Error against time: " + short_name(job);
+    const std::string id = fmt::format("job-{}", sections.size() + 1);
+    const std::string name = "Error against time: " + short_name(job);
     std::string parts;
     std::string links;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const std::vector<Numbered> methods = timed_methods(report, job, lights[i]);
       if (methods.empty()) continue;
-      const std::string id = fmt::format("{}-light-{}", section.id, i + 1);
-      parts += light_part(methods, families, id);
-      links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "" : " · ", id, escaped(lights[i]));
+      const std::string light_id = fmt::format("{}-light-{}", id, i + 1);
+      parts += light_part(methods, families, light_id);
+      links +=
+          fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "" : " · ", light_id, escaped(lights[i]));
     }
-    section.code = fmt::format(
-        "<section id=\"{}\">\n<h2>Error against time: {}</h2>\n<p class=\"job\">The job: {}.</p>\n"
-        "<p>Each mark is one method. The grey staircase, the <em>frontier</em>, joins the "
-        "methods that "
-        "no other is as fast and as accurate as; its marks have a heavier outline. Errors are CIEDE2000 "
-        "colour "
-        "differences from the reference that the job names, times those of one thread; both axes are "
-        "logarithmic.</p>\n<p>Lights: {}</p>\n{}</section>\n",
-        section.id, escaped(short_name(job)), escaped(job), links, parts);
-    sections.push_back(std::move(section));
+    sections.push_back(make_section(
+        id, name, escaped(name),
+        fmt::format(
+            "<p class=\"job\">The job: {}.</p>\n"
+            "<p>Each mark is one method. The grey staircase, the <em>frontier</em>, joins the "
+            "methods that "
+            "no other is as fast and as accurate as; its marks have a heavier outline. Errors are CIEDE2000 "
+            "colour "
+            "differences from the reference that the job names, times those of one thread; both axes are "
+            "logarithmic.</p>\n<p>Lights: {}</p>\n{}",
+            escaped(job), links, parts)));
   }
   return sections;
 }

@@ -58,8 +58,8 @@ std::string overview(const BenchmarkReport& report, const std::string& light,
   for (const RepresentationSpeed& r : report.representations) {
     if (r.light == light) bounces.insert(r.bounces);
   }
-  std::vector<Table::Column> columns = {{"representation", true}};
-  for (const int b : bounces) columns.push_back({fmt::format("{} bounce{}", b, b == 1 ? "" : "s")});
+  std::vector<std::string> columns = {"representation"};
+  for (const int b : bounces) columns.push_back(fmt::format("{} bounce{}", b, b == 1 ? "" : "s"));
   Table table(light + ": CIEDE2000, mean, after so many bounces", columns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Rows rows = representation_rows(report, light, names[i]);
@@ -78,14 +78,7 @@ std::string overview(const BenchmarkReport& report, const std::string& light,
 std::string details(const BenchmarkReport& report, const std::string& light,
                     const std::vector<std::string>& names) {
   Table table(light + ": every measurement. ns: a path, one thread; mean, 95 %, max: CIEDE2000",
-              {{"representation", true},
-               {"bounces"},
-               {"ns"},
-               {"mean"},
-               {"95 %"},
-               {"max"},
-               {"spread"},
-               {"coefficients"}});
+              {"representation", "bounces", "ns", "mean", "95 %", "max", "spread", "coefficients"});
   std::size_t count = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
@@ -107,11 +100,10 @@ std::string details(const BenchmarkReport& report, const std::string& light,
 }  // namespace
 
 Section representation_section(const BenchmarkReport& report) {
-  Section section{"representations", "Representations", ""};
-  if (report.representations.empty()) return section;
+  if (report.representations.empty()) return {};
   const auto names = distinct(report.representations, [](const auto& r) { return r.name; });
-  section.code =
-      "<section id=\"representations\">\n<h2>Representations of light and materials</h2>\n"
+  std::string body =
+      ""
       "<p>A path meets a light, then one material a bounce, and ends as a colour: its products and its "
       "colour are "
       "timed, and the colour is compared with that of the same path computed from the spectra themselves. "
@@ -121,20 +113,11 @@ Section representation_section(const BenchmarkReport& report) {
     const bool line_spectrum =
         std::any_of(report.representations.begin(), report.representations.end(),
                     [&](const auto& r) { return r.light == light && r.line_spectrum; });
-    const Chart chart = make_chart(report, light, names);
-    section.code += fmt::format("<section class=\"light\">\n<h3>{}{}</h3>\n", escaped(light),
-                                line_spectrum ? " <span class=\"badge\">has lines</span>" : "");
-    const std::string wide = svg_chart(chart, ChartForm::kWide);
-    if (!wide.empty()) {
-      section.code += fmt::format(
-          "<figure>\n<figcaption>{}. Lower and further left is better.</figcaption>\n{}{}"
-          "</figure>\n",
-          escaped(chart.title), wide, svg_chart(chart, ChartForm::kNarrow));
-    }
-    section.code += overview(report, light, names) + details(report, light, names) + "</section>\n";
+    body += light_head("", light, line_spectrum, make_chart(report, light, names),
+                       "Lower and further left is better.");
+    body += overview(report, light, names) + details(report, light, names) + "</section>\n";
   }
-  section.code += "</section>\n";
-  return section;
+  return make_section("representations", "Representations", "Representations of light and materials", body);
 }
 
 }  // namespace spectile::report

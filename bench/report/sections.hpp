@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/report/chart/svg_chart.hpp"
+
 namespace spectile::report {
 
 /// A section of the page, listed in its navigation.
@@ -13,6 +15,10 @@ struct Section {
   std::string name;  ///< in the navigation
   std::string code;
 };
+
+/// A section with its heading above the body, which is HTML.
+Section make_section(const std::string& id, const std::string& name, const std::string& heading,
+                     const std::string& body);
 
 /// The style sheet, for a screen of any width and for paper.
 extern const char* const kStyleSheet;
@@ -30,6 +36,10 @@ Section stress_section(const BenchmarkReport& report);
 /// A row whose numbers do not hold: some cases beyond the bound, or the worst is.
 bool is_beyond(const StressResult& result);
 std::string level_name(MemoryLevel level);
+/// The heading of a light's part, and its chart for wide and narrow screens where it has marks; `note` is
+/// added to the caption. `id`: an attribute, or empty.
+std::string light_head(const std::string& id, const std::string& light, bool line_spectrum,
+                       const Chart& chart, const char* note);
 
 /// The values of a field in their order of appearance, each once.
 template <class T, class F>

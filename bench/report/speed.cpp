@@ -84,16 +84,11 @@ std::vector<Html> row_cells(const BenchmarkReport& report, const OperationSpeed&
 
 Table operation_table(const BenchmarkReport& report, const std::vector<const OperationSpeed*>& rows,
                       const std::string& caption, bool full) {
-  std::vector<Table::Column> columns = {{"operation", true}};
-  if (full) columns.insert(columns.end(), {{"ISA", true}, {"threads"}});
-  columns.insert(columns.end(), {{"items/s"},
-                                 {"of its limit"},
-                                 {"error"},
-                                 {"bound"},
-                                 {"bytes/s"},
-                                 {"spread"},
-                                 {"limiting resource", true}});
-  Table table(caption, columns);
+  std::vector<std::string> columns = {"operation"};
+  if (full) columns.insert(columns.end(), {"ISA", "threads"});
+  columns.insert(columns.end(),
+                 {"items/s", "of its limit", "error", "bound", "bytes/s", "spread", "limiting resource"});
+  Table table(caption, columns, full ? std::vector<std::size_t>{0, 1, 9} : std::vector<std::size_t>{0, 7});
   for (const std::string& group : distinct(rows, [](const OperationSpeed* o) { return o->group; })) {
     table.group(group);
     for (const OperationSpeed* o : rows) {
@@ -141,10 +136,9 @@ std::string level_name(MemoryLevel level) {
 }
 
 Section operation_section(const BenchmarkReport& report) {
-  Section section{"operations", "Operations", ""};
-  if (report.operations.empty()) return section;
-  section.code =
-      "<section id=\"operations\">\n<h2>Operations against the machine's limits</h2>\n"
+  if (report.operations.empty()) return {};
+  std::string body =
+      ""
       "<p>The bar is the share of the operation's limit that it reaches: how fast this machine loads, "
       "stores, "
       "copies, or "
@@ -152,24 +146,16 @@ Section operation_section(const BenchmarkReport& report) {
       "plain loop that the limit was measured with. Bytes are those that an operation must "
       "read and write. Errors are against double precision; u is 2<sup>−24</sup> of the sum of "
       "magnitudes.</p>\n";
-  for (const MemoryLevel level : kLevels) section.code += level_part(report, level);
-  section.code += "</section>\n";
-  return section;
+  for (const MemoryLevel level : kLevels) body += level_part(report, level);
+  return make_section("operations", "Operations", "Operations against the machine's limits", body);
 }
 
 Section baseline_section(const BenchmarkReport& report) {
-  Section section{"baseline", "AoS baseline", ""};
-  if (report.baseline.empty()) return section;
-  Table table("The engine and the baseline, one thread, " + report.machine.processor, {{"operation", true},
-                                                                                       {"engine, ns"},
-                                                                                       {"baseline, ns"},
-                                                                                       {"ratio"},
-                                                                                       {"tuned by hand, ns"},
-                                                                                       {"ratio"},
-                                                                                       {"engine's error"},
-                                                                                       {"baseline's error"},
-                                                                                       {"of its limit"},
-                                                                                       {"limit", true}});
+  if (report.baseline.empty()) return {};
+  Table table("The engine and the baseline, one thread, " + report.machine.processor,
+              {"operation", "engine, ns", "baseline, ns", "ratio", "tuned by hand, ns", "ratio",
+               "engine's error", "baseline's error", "of its limit", "limit"},
+              {0, 9});
   for (const std::string& group : distinct(report.baseline, [](const BaselineSpeed& b) { return b.group; })) {
     table.group(group);
     for (const BaselineSpeed& b : report.baseline) {
@@ -181,28 +167,20 @@ Section baseline_section(const BenchmarkReport& report) {
                  html(quantity(b.baseline_error, b.error_unit)), fraction_cell(b.fraction), html(b.limit)});
     }
   }
-  section.code = fmt::format(
-      "<section id=\"baseline\">\n<h2>Against a scalar array of structures</h2>\n<p>The baseline is a struct "
-      "of "
-      "samples a pixel in plain C++, compiled with -O3 for this processor. Ratios differ from processor to "
-      "processor.</p>\n{}</section>\n",
-      table.code());
-  return section;
+  return make_section("baseline", "AoS baseline", "Against a scalar array of structures",
+                      fmt::format("<p>The baseline is a struct "
+                                  "of "
+                                  "samples a pixel in plain C++, compiled with -O3 for this processor. "
+                                  "Ratios differ from processor to "
+                                  "processor.</p>\n{}",
+                                  table.code()));
 }
 
 Section limit_section(const BenchmarkReport& report) {
-  Section section{"limits", "Machine limits", ""};
-  if (report.limits.empty()) return section;
-  Table table("What the machine can do with nothing else to do; medians", {{"where, ISA", true},
-                                                                           {"threads"},
-                                                                           {"load"},
-                                                                           {"store"},
-                                                                           {"stream"},
-                                                                           {"copy"},
-                                                                           {"multiply-add"},
-                                                                           {"fused"},
-                                                                           {"divide"},
-                                                                           {"spread"}});
+  if (report.limits.empty()) return {};
+  Table table("What the machine can do with nothing else to do; medians",
+              {"where, ISA", "threads", "load", "store", "stream", "copy", "multiply-add", "fused", "divide",
+               "spread"});
   for (const MemoryLevel level : kLevels) {
     bool first = true;
     for (const MachineLimit& l : report.limits) {
@@ -216,25 +194,25 @@ Section limit_section(const BenchmarkReport& report) {
                  html("±" + percent(l.spread))});
     }
   }
-  section.code = fmt::format(
-      "<section id=\"limits\">\n<h2>The machine's limits</h2>\n"
-      "<p>Load: bytes read. Store: written by ordinary stores. Stream: written by non-temporal stores. Copy: "
-      "bytes "
-      "read and "
-      "written, together. Multiply-add: multiply, then add, each rounded and counted. Fused: "
-      "each fused "
-      "multiply-add counted once. Divide: float divisions.</p>\n{}</section>\n",
-      table.code());
-  return section;
+  return make_section(
+      "limits", "Machine limits", "The machine's limits",
+      fmt::format(""
+                  "<p>Load: bytes read. Store: written by ordinary stores. Stream: written by non-temporal "
+                  "stores. Copy: "
+                  "bytes "
+                  "read and "
+                  "written, together. Multiply-add: multiply, then add, each rounded and counted. Fused: "
+                  "each fused "
+                  "multiply-add counted once. Divide: float divisions.</p>\n{}",
+                  table.code()));
 }
 
 Section scaling_section(const BenchmarkReport& report) {
-  Section section{"threads", "Threads", ""};
-  if (report.scaling.empty()) return section;
+  if (report.scaling.empty()) return {};
   std::set<int> threads;
   for (const ThreadScaling& s : report.scaling) threads.insert(s.threads);
-  std::vector<Table::Column> columns = {{"where, what", true}};
-  for (const int t : threads) columns.push_back({fmt::format("{} thread{}", t, t == 1 ? "" : "s")});
+  std::vector<std::string> columns = {"where, what"};
+  for (const int t : threads) columns.push_back(fmt::format("{} thread{}", t, t == 1 ? "" : "s"));
   Table table("Speed-up over one thread, and in brackets that of the machine's own limit", columns);
   const auto names = distinct(report.scaling, [](const auto& s) { return s.name; });
   for (const MemoryLevel level : kLevels) {
@@ -257,9 +235,7 @@ Section scaling_section(const BenchmarkReport& report) {
       table.row(cells);
     }
   }
-  section.code =
-      fmt::format("<section id=\"threads\">\n<h2>Several threads</h2>\n{}</section>\n", table.code());
-  return section;
+  return make_section("threads", "Threads", "Several threads", fmt::format("{}", table.code()));
 }
 
 }  // namespace spectile::report

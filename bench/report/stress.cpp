@@ -28,19 +28,14 @@ bool is_beyond(const StressResult& result) {
 }
 
 Section stress_section(const BenchmarkReport& report) {
-  Section section{"stress", "Stress test", ""};
-  if (report.stress.empty()) return section;
+  if (report.stress.empty()) return {};
   const auto beyond = std::count_if(report.stress.begin(), report.stress.end(), is_beyond);
   std::uint64_t cases = 0;
   for (const StressResult& s : report.stress) cases += s.cases;
-  Table table("Every operation and kind of input; rows beyond their bound first",
-              {{"operation, and its inputs", true},
-               {"verdict", true},
-               {"bound"},
-               {"worst"},
-               {"cases"},
-               {"cases beyond"},
-               {"worst case", true}});
+  Table table(
+      "Every operation and kind of input; rows beyond their bound first",
+      {"operation, and its inputs", "verdict", "bound", "worst", "cases", "cases beyond", "worst case"},
+      {0, 1, 6});
   for (const bool bad : {true, false}) {
     for (const StressResult& s : report.stress) {
       if (is_beyond(s) == bad) table.row(row_cells(s), bad ? "beyond" : "");
@@ -50,12 +45,11 @@ Section stress_section(const BenchmarkReport& report) {
       beyond == 0 ? fmt::format("<p class=\"good\">All {} rows hold", report.stress.size())
                   : fmt::format("<p class=\"bad\">{} of {} rows are <strong>beyond</strong> their bound",
                                 beyond, report.stress.size());
-  section.code = fmt::format(
-      "<section id=\"stress\">\n<h2>How far the numbers hold</h2>\n{}, {} cases in all. “Exact” asks for "
-      "exactly the "
-      "documented result.</p>\n{}</section>\n",
-      verdict, count_text(cases), table.code());
-  return section;
+  return make_section("stress", "Stress test", "How far the numbers hold",
+                      fmt::format("{}, {} cases in all. “Exact” asks for "
+                                  "exactly the "
+                                  "documented result.</p>\n{}",
+                                  verdict, count_text(cases), table.code()));
 }
 
 }  // namespace spectile::report

@@ -3,35 +3,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace spectile::report {
 
-Table::Table(std::string caption, std::vector<Column> columns)
-    : caption_(std::move(caption)), columns_(std::move(columns)) {}
+Table::Table(std::string caption, std::vector<std::string> heads, std::vector<std::size_t> words)
+    : caption_(std::move(caption)), heads_(std::move(heads)), words_(std::move(words)) {}
+
+const char* Table::column_class(std::size_t column) const {
+  return std::find(words_.begin(), words_.end(), column) != words_.end() ? " class=\"words\"" : "";
+}
 
 void Table::group(const std::string& name) {
   rows_ += fmt::format(
       "{}<tbody>\n<tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\"><span>{}</span></th></tr>\n",
-      rows_.empty() ? "" : "</tbody>\n", columns_.size(), escaped(name));
+      rows_.empty() ? "" : "</tbody>\n", heads_.size(), escaped(name));
 }
 
 void Table::row(const std::vector<Html>& cells, const std::string& kind) {
   if (rows_.empty()) rows_ += "<tbody>\n";
   rows_ += kind.empty() ? "<tr>" : fmt::format("<tr class=\"{}\">", kind);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const char* words = i < columns_.size() && columns_[i].words ? " class=\"words\"" : "";
-    rows_ += i == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", words, cells[i].code)
-                    : fmt::format("<td{}>{}</td>", words, cells[i].code);
+    rows_ += fmt::format(fmt::runtime(i == 0 ? "<th scope=\"row\"{}>{}</th>" : "<td{}>{}</td>"),
+                         column_class(i), cells[i].code);
   }
   rows_ += "</tr>\n";
 }
 
 std::string Table::code() const {
   std::string heads;
-  for (const Column& column : columns_) {
-    heads += fmt::format("<th scope=\"col\"{}>{}</th>", column.words ? " class=\"words\"" : "",
-                         escaped(column.head));
+  for (std::size_t i = 0; i < heads_.size(); ++i) {
+    heads += fmt::format("<th scope=\"col\"{}>{}</th>", column_class(i), escaped(heads_[i]));
   }
   // Reached by the keyboard, as what scrolls must be.
   return fmt::format(

@@ -10,12 +10,8 @@ namespace spectile::report {
 
 class Table {
  public:
-  struct Column {
-    std::string head;
-    bool words = false;  ///< set to the left; numbers are set to the right
-  };
-
-  Table(std::string caption, std::vector<Column> columns);
+  /// `words`: the columns that are set to the left; numbers are set to the right.
+  Table(std::string caption, std::vector<std::string> heads, std::vector<std::size_t> words = {0});
 
   /// Begins a group of rows with a head of its own.
   void group(const std::string& name);
@@ -25,8 +21,12 @@ class Table {
   std::string code() const;
 
  private:
+  /// The class of a column's cells, as an attribute.
+  const char* column_class(std::size_t column) const;
+
   std::string caption_;
-  std::vector<Column> columns_;
+  std::vector<std::string> heads_;
+  std::vector<std::size_t> words_;
   std::string rows_;
 };
 
