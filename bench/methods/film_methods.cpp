@@ -94,23 +94,16 @@ Result<std::vector<float>> radiance_on(const MethodScene& scene, const Bands& ba
 Result<void> add_bands(const MethodScene& scene, const Bands& bands, const std::string& family,
                        const std::string& name, std::vector<MethodRun>& methods) {
   auto s = std::make_shared<State>();
-  SPECTILE_ASSIGN(auto radiance, radiance_on(scene, bands, &s->white_y));
-  s->radiance = std::move(radiance);
+  SPECTILE_ASSIGN(s->radiance, radiance_on(scene, bands, &s->white_y));
   FilmOptions o = film_options();
   o.input = FilmInput::kBands;
   o.bands = bands;
-  SPECTILE_ASSIGN(auto film, Film::create(o));
-  s->film = std::move(film);
-  MethodRun method;
-  method.family = family;
-  method.name = name;
-  method.bands = static_cast<int>(bands.count());
-  method.bytes = bands.count() * sizeof(float);
+  SPECTILE_ASSIGN(s->film, Film::create(o));
+  MethodRun& method = methods.emplace_back(family, name, bands.count(), bands.count() * sizeof(float));
   method.run = [s, n = bands.count()] {
     static_cast<void>(s->film->add(BandSamples{s->at.x, s->at.y, {}, {s->radiance.data(), n, kMethodLanes}}));
   };
   method.result = pixel_reader(s);
-  methods.push_back(std::move(method));
   return {};
 }
 
@@ -128,9 +121,7 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
     std::size_t next = 0;
   };
   auto d = std::make_shared<Drawn>();
-  FilmOptions o = film_options();
-  SPECTILE_ASSIGN(auto film, Film::create(o));
-  d->film.film = std::move(film);
+  SPECTILE_ASSIGN(d->film.film, Film::create(film_options()));
   std::mt19937_64 random(scene.seed);
   SPECTILE_ASSIGN(auto u, ScalarLanes::create(kMethodLanes));
   // The light on the scale on which the film's white is 1.
@@ -164,10 +155,9 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
     d->draws.push_back(std::move(drawn));
     d->radiance.push_back(std::move(radiance));
   }
-  MethodRun method;
-  method.family = "wavelengths";
-  method.name = fmt::format("{} drawn wavelengths, {} samples a pixel", kWavelengths, kDrawsPerPixel);
-  method.bytes = kDrawsPerPixel * 3 * kWavelengths * sizeof(float);
+  MethodRun& method = methods.emplace_back(
+      "wavelengths", fmt::format("{} drawn wavelengths, {} samples a pixel", kWavelengths, kDrawsPerPixel), 0,
+      kDrawsPerPixel * 3 * kWavelengths * sizeof(float));
   method.per_lane = static_cast<double>(kDrawsPerPixel);
   method.run = [d] {
     add_draw(*d->film.film, d->film.at, d->draws[d->next], d->radiance[d->next]);
@@ -186,7 +176,6 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
     }
     return pixels(lane);
   };
-  methods.push_back(std::move(method));
   return {};
 }
 
@@ -216,11 +205,9 @@ Result<void> add_aos_baseline(const MethodScene& scene, std::vector<MethodRun>& 
         baseline->scene.matching[k][b] = static_cast<float>(observer.weights()[b][k]);
       }
     }
-    MethodRun method;
-    method.family = "AoS baseline";
-    method.name = fmt::format("AoS baseline, {} even bands", job.samples);
-    method.bands = static_cast<int>(job.samples);
-    method.bytes = job.samples * sizeof(float);
+    MethodRun& method =
+        methods.emplace_back("AoS baseline", fmt::format("AoS baseline, {} even bands", job.samples),
+                             job.samples, job.samples * sizeof(float));
     method.run = [baseline, &job] {
       job.add(baseline->scene, baseline->radiance.data(), baseline->weight.data(), baseline->pixel.data(),
               baseline->film.data(), kMethodLanes);
@@ -231,7 +218,6 @@ Result<void> add_aos_baseline(const MethodScene& scene, std::vector<MethodRun>& 
       for (std::size_t k = 0; k < 3; ++k) out[k] = p.xyz[k] / p.weight / baseline->white_y;
       return out;
     };
-    methods.push_back(std::move(method));
   }
   return {};
 }

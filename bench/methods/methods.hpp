@@ -18,13 +18,18 @@ inline constexpr std::size_t kMethodLanes = 2048;
 
 /// One method, ready to run: kWayLanes lanes, of which lane i is of reflectance i modulo their number.
 struct MethodRun {
+  MethodRun(std::string of_family, std::string own_name, std::size_t band_count, std::uint64_t stored)
+      : family(std::move(of_family)),
+        name(std::move(own_name)),
+        bands(static_cast<int>(band_count)),
+        bytes(stored) {}
+
   std::string family, name;
   int bands = 0;
   std::uint64_t bytes = 0;
   std::function<void()> run;
   std::function<Xyz(std::size_t lane)> result;  ///< after a run; on the scale of the light's white, Y = 1
   double per_lane = 1;                          ///< runs that a lane's result needs, as many samples a pixel
-  std::shared_ptr<void> kept;
 };
 
 /// Inputs of the jobs.

@@ -67,8 +67,7 @@ struct Maker {
     s->texture = texture;
     s->upsampler = upsampler;
     SPECTILE_ASSIGN(s->projector, Projector::reflective(upsampler->bands(), scene.light->spectrum));
-    SPECTILE_ASSIGN(auto spectra, FloatBuffer::create(kMethodLanes * upsampler->bands().count()));
-    s->spectra = std::move(spectra);
+    SPECTILE_ASSIGN(s->spectra, FloatBuffer::create(kMethodLanes * upsampler->bands().count()));
     SPECTILE_ASSIGN(s->coefficients, FloatBuffer::create(3 * kMethodLanes));
     s->halves.resize(s->spectra.size());
     s->unsolved.resize(blocks_for(kMethodLanes));
@@ -78,17 +77,14 @@ struct Maker {
 
   void add(const std::shared_ptr<State>& s, std::string family, std::string name, std::uint64_t bytes,
            std::function<void(const KernelTable&, State&)> work) {
-    MethodRun method;
-    method.family = std::move(family);
-    method.name = std::move(name);
-    method.bands = static_cast<int>(s->upsampler->bands().count());
-    method.bytes = bytes;
+    MethodRun& method =
+        methods.emplace_back(std::move(family), std::move(name), s->upsampler->bands().count(), bytes);
     method.run = [s, work = std::move(work), table = scene.table] { work(*table, *s); };
     method.result = [s](std::size_t lane) {
-      return Xyz{static_cast<double>(s->xyz.at(lane, 0)), static_cast<double>(s->xyz.at(lane, 1)),
-                 static_cast<double>(s->xyz.at(lane, 2))};
+      Xyz out{};
+      for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<double>(s->xyz.at(lane, k));
+      return out;
     };
-    methods.push_back(std::move(method));
   }
 };
 
@@ -98,8 +94,8 @@ const float* const* rgb_pointers(const State& s, const float* (&to)[3]) {
 }
 
 void sum_up(const KernelTable& k, State& s) {
-  k.project(s.xyz.span().c, s.spectra.data(), ProjectorAccess::weights(*s.projector), s.upsampler->bands().count(),
-            blocks_for(kMethodLanes));
+  k.project(s.xyz.span().c, s.spectra.data(), ProjectorAccess::weights(*s.projector),
+            s.upsampler->bands().count(), blocks_for(kMethodLanes));
 }
 
 void through_halves(const KernelTable& k, State& s) {
@@ -124,7 +120,8 @@ void solve(const KernelTable& k, State& s) {
 
 kernels::SigmoidSpectra sigmoids(State& s, const float* (&c)[3]) {
   for (std::size_t k = 0; k < 3; ++k) c[k] = s.coefficients.data() + k * kMethodLanes;
-  return {c, nullptr, UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, s.upsampler->bands().count(), false};
+  return {c, nullptr, UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, s.upsampler->bands().count(),
+          false};
 }
 
 void evaluate(const KernelTable& k, State& s) {
@@ -143,8 +140,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   // Bands on which a method cannot be exact are left out.
   if (!made) return {};
   const auto upsampler = std::make_shared<const Upsampler>(*std::move(made));
-  SPECTILE_ASSIGN(auto state, maker.state_for(upsampler));
-  const std::shared_ptr<State> s = state;
+  SPECTILE_ASSIGN(const auto s, maker.state_for(upsampler));
   const std::string family(to_string(method));
   const auto samples = static_cast<std::uint64_t>(bands.count());
   const auto name = [&](const char* execution) {
@@ -174,8 +170,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
     sum_up(k, t);
   });
   constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  SPECTILE_ASSIGN(auto relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
-  s->relighter = std::move(relighter);
+  SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
     const float* rgb[3];
     k.smits_fold(t.xyz.span().c, rgb_pointers(t, rgb), RelighterAccess::table(*t.relighter), kMethodLanes);
@@ -226,10 +221,8 @@ Result<void> add_aos_baseline(Maker& maker) {
       }
       baseline->scene.light[i] = static_cast<float>(static_cast<double>(light[i]) / y);
     }
-    MethodRun method;
-    method.family = "AoS baseline";
-    method.name = fmt::format("AoS baseline, smits, {} even bands", job.samples);
-    method.bands = static_cast<int>(job.samples);
+    MethodRun& method = maker.methods.emplace_back(
+        "AoS baseline", fmt::format("AoS baseline, smits, {} even bands", job.samples), job.samples, 0);
     method.run = [baseline, &job] {
       job.relight(baseline->scene, baseline->texture->interleaved.data(), baseline->xyz.data(), kMethodLanes);
     };
@@ -238,7 +231,6 @@ Result<void> add_aos_baseline(Maker& maker) {
                  static_cast<double>(baseline->xyz[3 * lane + 1]),
                  static_cast<double>(baseline->xyz[3 * lane + 2])};
     };
-    maker.methods.push_back(std::move(method));
   }
   return {};
 }

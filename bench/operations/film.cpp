@@ -6,7 +6,7 @@
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
-#include "bench/operations/operation.hpp"
+#include "bench/operations/films.hpp"
 #include "src/base/errors.hpp"
 #include "src/color/kernel_tables.hpp"
 
@@ -17,46 +17,28 @@ using kernels::KernelTable;
 
 constexpr std::int32_t kIntervals = 470;  // 360 to 830 nm
 constexpr double kFirstNm = 360;
-/// Far above what is tried: what a film refuses is another matter.
-constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-
-/// Rows of three curves and their differences, as the kernels want them.
-using CurveRows = std::shared_ptr<const std::vector<float>>;
+/// Three curves' values at a wavelength, and at 4 their differences to the next one, as the kernels want
+/// them.
+struct alignas(32) CurveRow {
+  float values[8] = {};
+};
+using CurveRows = std::shared_ptr<const std::vector<CurveRow>>;
 
 Result<CurveRows> curve_rows() {
-  // One row more behind the last, and room to begin at a multiple of 32 bytes.
-  auto rows = std::make_shared<std::vector<float>>((static_cast<std::size_t>(kIntervals) + 2) * 8 + 8, 0.0F);
+  // One row more behind the last.
+  auto rows = std::make_shared<std::vector<CurveRow>>(kIntervals + 2);
   const char* const names[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t c = 0; c < 3; ++c) {
     SPECTILE_ASSIGN(const auto curve, named_spectrum(names[c]));
-    for (std::int32_t i = 0; i <= kIntervals; ++i) {
-      const double nm = kFirstNm + i;
+    for (std::size_t i = 0; i <= kIntervals; ++i) {
+      const double nm = kFirstNm + static_cast<double>(i);
       const auto value = static_cast<float>(curve(nm));
       const float next = i < kIntervals ? static_cast<float>(curve(nm + 1)) : value;
-      (*rows)[static_cast<std::size_t>(i) * 8 + c] = value;
-      (*rows)[static_cast<std::size_t>(i) * 8 + 4 + c] = next - value;
+      (*rows)[i].values[c] = value;
+      (*rows)[i].values[4 + c] = next - value;
     }
   }
   return CurveRows(std::move(rows));
-}
-
-/// The rows at a multiple of 32 bytes: a copy of its own for each thread.
-const float* aligned_rows(const std::vector<float>& rows) {
-  struct alignas(32) Row {
-    float values[8];
-  };
-  thread_local std::vector<Row> copy;
-  if (copy.empty()) {
-    copy.resize(static_cast<std::size_t>(kIntervals) + 2);
-    for (std::size_t i = 0; i < copy.size(); ++i) std::copy_n(rows.data() + 8 * i, 8, copy[i].values);
-  }
-  return copy.data()->values;
-}
-
-std::int32_t* reasons_for(std::size_t n) {
-  thread_local std::vector<std::int32_t> reasons;
-  reasons.resize(n);
-  return reasons.data();
 }
 
 Operation& film_operation(std::vector<Operation>& to, std::string name, std::size_t planes) {
@@ -78,15 +60,13 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
   op.run = [rows](const KernelTable& k, const Arrays& a) {
     const PathRows path(a);
     kernels::FilmCurves curves;
-    curves.rows = aligned_rows(*rows);
+    curves.rows = rows->front().values;
     curves.first_nm = static_cast<float>(kFirstNm);
     curves.intervals = kIntervals;
     curves.largest = 2;
-    const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
-                                        std::numeric_limits<float>::max()};
     k.film_weigh_wavelengths({a.out(), reasons_for(a.n())},
                              {path.values, path.lambda, path.density, nullptr, kWavelengths, a.n()}, curves,
-                             limits, 1.0F / kWavelengths);
+                             kNoLimits, 1.0F / kWavelengths);
   };
   const auto evaluate_errors = error_against(
       3, 2 * kWavelengths, false, op.bound, [rows](const double* v, double* reference, double* scale) {
@@ -98,8 +78,8 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
           const auto row = static_cast<std::size_t>(t);
           const double part = t - static_cast<double>(row);
           for (std::size_t c = 0; c < 3; ++c) {
-            const auto value = static_cast<double>((*rows)[8 * row + c]);
-            const auto step = static_cast<double>((*rows)[8 * row + 4 + c]);
+            const auto value = static_cast<double>((*rows)[row].values[c]);
+            const auto step = static_cast<double>((*rows)[row].values[4 + c]);
             reference[c] += (value + part * step) * ratio / kWavelengths;
             scale[c] += (std::abs(value) + std::abs(part * step)) * std::abs(ratio) / kWavelengths;
           }
@@ -138,10 +118,8 @@ void add_band_samples(std::vector<Operation>& to, const Projector& projector) {
     thread_local std::vector<const float*> rows;
     rows.resize(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
-    const kernels::FilmLimits limits = {kNoLimit, std::numeric_limits<float>::max(),
-                                        std::numeric_limits<float>::max()};
     k.film_weigh_bands({a.out(), reasons_for(a.n())}, {rows.data(), nullptr, nullptr, nullptr, bands, a.n()},
-                       weights->data(), limits);
+                       weights->data(), kNoLimits);
   };
   const auto evaluate_errors =
       error_against(3, count, false, op.bound, [=](const double* v, double* reference, double* scale) {

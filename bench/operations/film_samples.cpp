@@ -72,14 +72,10 @@ void add_band_quads(std::vector<Operation>& to, std::size_t bands) {
   op.fill = uniform_values(bands + 1, 0.01F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     thread_local std::vector<const float*> rows;
-    thread_local std::vector<std::int32_t> reasons;
     rows.resize(bands);
-    reasons.resize(a.n());
     for (std::size_t b = 0; b < bands; ++b) rows[b] = a.in(b);
-    const kernels::FilmLimits limits = {std::numeric_limits<float>::infinity(),
-                                        std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
-    k.film_band_quads(a.out(), stride, reasons.data(),
-                      {rows.data(), nullptr, nullptr, a.in(bands), bands, a.n()}, limits);
+    k.film_band_quads(a.out(), stride, reasons_for(a.n()),
+                      {rows.data(), nullptr, nullptr, a.in(bands), bands, a.n()}, kNoLimits);
   };
   op.error =
       error_against(stride, 1, true, op.bound, [=](const double* v, double* reference, double* /*scale*/) {
@@ -154,6 +150,12 @@ void add_hits(std::vector<Operation>& to, const SharedFilm& film) {
 }
 
 }  // namespace
+
+std::int32_t* reasons_for(std::size_t n) {
+  thread_local std::vector<std::int32_t> reasons;
+  reasons.resize(n);
+  return reasons.data();
+}
 
 void add_film_samples(std::vector<Operation>& to, const SharedFilm& film, const SharedFilm& spectral,
                       const Bands& bands) {

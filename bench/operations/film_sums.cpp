@@ -40,32 +40,20 @@ double in_rest_steps(double v, double coarse, double rest, double step) {
   return ((v - coarse * step) - rest * std::ldexp(step, -kFilmLimbBits)) / std::ldexp(step, -kFilmLimbBits);
 }
 
-const std::int32_t* whole_tile() {
-  static const auto addresses = [] {
-    std::array<std::int32_t, kFilmTilePixels> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::int32_t>(i);
+/// value(i) for each pixel of a tile, made once for each kind of value.
+template <class Value>
+auto tile_table(Value value) {
+  static const auto table = [&] {
+    std::array<decltype(value(std::size_t{})), kFilmTilePixels> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = value(i);
     return out;
   }();
-  return addresses.data();
+  return table.data();
 }
 
 /// Filter weights, exact in few bits.
 const float* filter_weights() {
-  static const auto weights = [] {
-    std::array<float, kFilmTilePixels> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(1 + i % 61) / 64.0F;
-    return out;
-  }();
-  return weights.data();
-}
-
-const std::uint32_t* each_sample() {
-  static const auto samples = [] {
-    std::array<std::uint32_t, kFilmTilePixels> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
-    return out;
-  }();
-  return samples.data();
+  return tile_table([](std::size_t i) { return static_cast<float>(1 + i % 61) / 64.0F; });
 }
 
 /// Calls add(first lane, entries, tile) for each tile's worth of lanes; lane i is pixel i of its tile.
@@ -74,7 +62,7 @@ void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
   for (std::size_t first = 0; first < a.n(); first += kFilmTilePixels) {
     std::int64_t* tile = a.out<std::int64_t>() + first * limbs;
     FilmEntries entries;
-    entries.address = whole_tile();
+    entries.address = tile_table([](std::size_t i) { return static_cast<std::int32_t>(i); });
     entries.count = std::min(kFilmTilePixels, a.n() - first);
     entries.tile = 0;
     add(first, entries, &tile);
@@ -143,7 +131,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   spread.bound = 1;
   spread.run = [film](const KernelTable& k, const Arrays& a) {
     over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, std::int64_t* const* tiles) {
-      entries.sample = each_sample();
+      entries.sample = tile_table([](std::size_t i) { return static_cast<std::uint32_t>(i); });
       entries.factor = filter_weights();
       k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
     });

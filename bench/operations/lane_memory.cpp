@@ -17,6 +17,19 @@ constexpr std::size_t kPage = 4096;
 /// push each other out of a cache, where addresses end alike.
 constexpr std::size_t kApart = std::size_t{17} * 64;
 
+/// Number i of a block.
+template <class T>
+T number_in(const std::byte* block, std::size_t i) {
+  T out{};
+  std::memcpy(&out, block + i * sizeof(T), sizeof(T));
+  return out;
+}
+
+template <class T>
+void put_number(std::byte* block, std::size_t i, T number) {
+  std::memcpy(block + i * sizeof(T), &number, sizeof(T));
+}
+
 std::size_t padded_plane_bytes(std::size_t bytes) {
   return (bytes + kPage - 1) / kPage * kPage + kApart;
 }
@@ -68,14 +81,12 @@ void LaneMemory::write(std::size_t lane, const float* values) {
       const float v = values[plane * in_.rows + row];
       if (in_.element == Element::kLimb) {
         constexpr float kMaxMagnitude = 0x1p53F;
-        const auto whole =
-            static_cast<std::int64_t>(std::isnan(v) ? 0.0F : std::clamp(v, -kMaxMagnitude, kMaxMagnitude));
-        std::memcpy(block + i * sizeof(whole), &whole, sizeof(whole));
+        const float held = std::isnan(v) ? 0.0F : std::clamp(v, -kMaxMagnitude, kMaxMagnitude);
+        put_number(block, i, static_cast<std::int64_t>(held));
       } else if (in_.element == Element::kHalf) {
-        const std::uint16_t half = reference::half_from_float(v);
-        std::memcpy(block + i * sizeof(half), &half, sizeof(half));
+        put_number(block, i, reference::half_from_float(v));
       } else {
-        std::memcpy(block + i * sizeof(v), &v, sizeof(v));
+        put_number(block, i, v);
       }
     }
   }
@@ -98,26 +109,21 @@ void LaneMemory::read(const Shape& shape, const std::byte* at, std::size_t plane
     for (std::size_t row = 0; row < shape.rows; ++row) {
       double& to = values[plane * shape.rows + row];
       const std::size_t i = index(shape, lane, row);
-      if (shape.element == Element::kMask) {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, block + row * sizeof(bits), sizeof(bits));
-        to = static_cast<double>((bits >> (lane % kLanes)) & 1U);
-      } else if (shape.element == Element::kInt) {
-        std::int32_t whole = 0;
-        std::memcpy(&whole, block + i * sizeof(whole), sizeof(whole));
-        to = static_cast<double>(whole);
-      } else if (shape.element == Element::kLimb) {
-        std::int64_t whole = 0;
-        std::memcpy(&whole, block + i * sizeof(whole), sizeof(whole));
-        to = static_cast<double>(whole);
-      } else if (shape.element == Element::kHalf) {
-        std::uint16_t half = 0;
-        std::memcpy(&half, block + i * sizeof(half), sizeof(half));
-        to = static_cast<double>(reference::float_from_half(half));
-      } else {
-        float v = 0;
-        std::memcpy(&v, block + i * sizeof(v), sizeof(v));
-        to = static_cast<double>(v);
+      switch (shape.element) {
+        case Element::kMask:
+          to = static_cast<double>((number_in<std::uint64_t>(block, row) >> (lane % kLanes)) & 1U);
+          break;
+        case Element::kInt:
+          to = static_cast<double>(number_in<std::int32_t>(block, i));
+          break;
+        case Element::kLimb:
+          to = static_cast<double>(number_in<std::int64_t>(block, i));
+          break;
+        case Element::kHalf:
+          to = static_cast<double>(reference::float_from_half(number_in<std::uint16_t>(block, i)));
+          break;
+        default:
+          to = static_cast<double>(number_in<float>(block, i));
       }
     }
   }

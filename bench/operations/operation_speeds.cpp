@@ -110,9 +110,8 @@ Result<SpeedsFound> in_cache(const std::vector<Operation>& operations, const Spe
   std::vector<Timed*> work = limits.timed();
   for (std::size_t i = 0; i < operations.size(); ++i) {
     entries[i].operation = &operations[i];
-    SPECTILE_ASSIGN(
-        auto own, FloatBuffer::create(std::max(bytes, LaneMemory::min_bytes(operations[i])) / sizeof(float)));
-    entries[i].own = std::move(own);
+    const std::size_t own_bytes = std::max(bytes, LaneMemory::min_bytes(operations[i]));
+    SPECTILE_ASSIGN(entries[i].own, FloatBuffer::create(own_bytes / sizeof(float)));
     prepare(entries[i], entries[i].own.data(), place);
     work.push_back(&entries[i].timed);
     if (!place.baseline) continue;

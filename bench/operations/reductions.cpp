@@ -1,5 +1,6 @@
 // Reductions over a lane's bands, and its colour.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -76,13 +77,13 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
   };
 }
 
-/// Sums of weights [count][bands] times samples, in double.
+/// Sums of `count` rows of weights [bands] times samples, in double.
 Oracle weighted_by(const std::shared_ptr<const std::vector<double>>& weights, std::size_t bands,
-                   std::size_t count) {
+                   std::size_t count, std::size_t first = 0) {
   return [=](const double* v, double* reference, double* scale) {
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < bands; ++i) {
-        const double term = (*weights)[k * bands + i] * v[i];
+        const double term = (*weights)[(first + k) * bands + i] * v[i];
         reference[k] += term;
         scale[k] += std::abs(term);
       }
@@ -105,9 +106,6 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < 3; ++k) (*weights)[k * n + i] = projector->weights()[i][k];
   }
-  auto y_weights =
-      std::make_shared<std::vector<double>>(weights->begin() + static_cast<std::ptrdiff_t>(n),
-                                            weights->begin() + static_cast<std::ptrdiff_t>(2 * n));
   // Products, sums within runs of eight, sums of the runs.
   const double sums = count + std::ceil(count / static_cast<double>(kernels::kSumRun));
 
@@ -132,27 +130,24 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   y.run = [=](const KernelTable& k, const Arrays& a) {
     k.weighted_sum(a.out(), a.in(), ProjectorAccess::luminance_weights(*projector), n, a.blocks);
   };
-  y.error = error_against(1, count, false, y.bound, weighted_by(y_weights, n, 1));
+  y.error = error_against(1, count, false, y.bound, weighted_by(weights, n, 1, 1));
 
   Operation& transform = add_operation(to, "colorimetry", "XYZ to linear sRGB", "colour", {3, 1}, {3, 1});
   transform.operations = 15;
   transform.bound = 4;  // the matrix's own rounding, a product, two sums
   transform.fill = uniform_values(3, 0.01F, 1.0F);
-  auto matrix = std::make_shared<std::vector<float>>(9);
-  auto exact_matrix = std::make_shared<std::vector<double>>(9);
-  for (std::size_t i = 0; i < 9; ++i) {
-    (*exact_matrix)[i] = xyz_to_srgb_matrix()[i];
-    (*matrix)[i] = static_cast<float>((*exact_matrix)[i]);
-  }
+  const Matrix3 exact = xyz_to_srgb_matrix();
+  std::array<float, 9> matrix{};
+  for (std::size_t i = 0; i < 9; ++i) matrix[i] = static_cast<float>(exact[i]);
   transform.run = [=](const KernelTable& k, const Arrays& a) {
     float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     const float* const src[3] = {a.in(0), a.in(1), a.in(2)};
-    k.transform3(dst, src, matrix->data(), a.n());
+    k.transform3(dst, src, matrix.data(), a.n());
   };
   transform.error =
       error_against(3, 3, false, transform.bound, [=](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < 9; ++i) {
-          const double term = (*exact_matrix)[i] * v[i % 3];
+          const double term = exact[i] * v[i % 3];
           reference[i / 3] += term;
           scale[i / 3] += std::abs(term);
         }

@@ -177,14 +177,20 @@ Operation& evaluation(std::vector<Operation>& to, std::string name, std::size_t 
 void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = UpsamplerAccess::sigmoid(*upsampler)->table;
   const std::size_t bands = table.bands;
-  const auto samples_error = [=](const double* c, const double* out, double /*tiny*/) {
-    if (!has_bound(c)) return kOutOfDomain;
-    double worst = 0;
-    for (std::size_t b = 0; b < bands; ++b) {
-      const double l = band_lambda(table, b);
-      worst = std::max(worst, std::abs(out[b] - sigmoid(c, l)) / allowed_at(c, l));
-    }
-    return worst;
+  const auto samples_error = [=](bool half) {
+    return [=](const double* c, const double* out, double /*tiny*/) {
+      if (!has_bound(c)) return kOutOfDomain;
+      double worst = 0;
+      for (std::size_t b = 0; b < bands; ++b) {
+        const double l = band_lambda(table, b);
+        const double reference = sigmoid(c, l);
+        const double off = std::abs(out[b] - reference);
+        const double allowed = allowed_at(c, l);
+        worst = std::max(worst,
+                         half ? std::max(0.0, off - allowed) / half_of_half_step(reference) : off / allowed);
+      }
+      return worst;
+    };
   };
   Operation& blocks = evaluation(to, "sigmoid: evaluate", bands);
   blocks.out = {1, bands};
@@ -194,7 +200,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     k.sigmoid_blocks(a.out(), {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands}, a.blocks,
                      a.non_temporal);
   };
-  blocks.error = samples_error;
+  blocks.error = samples_error(false);
 
   for (const bool half : {false, true}) {
     Operation& line = evaluation(
@@ -208,21 +214,10 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
                                                bands};
       (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(line_rows(a, bands), spectra, a.n());
     };
-    line.error = samples_error;
+    line.error = samples_error(half);
     if (half) {
       line.unit = "half ULP of half";
       line.bound = 1.001;
-      line.error = [=](const double* c, const double* out, double /*tiny*/) {
-        if (!has_bound(c)) return kOutOfDomain;
-        double worst = 0;
-        for (std::size_t b = 0; b < bands; ++b) {
-          const double l = band_lambda(table, b);
-          const double reference = sigmoid(c, l);
-          const double off = std::max(0.0, std::abs(out[b] - reference) - allowed_at(c, l));
-          worst = std::max(worst, off / half_of_half_step(reference));
-        }
-        return worst;
-      };
     }
   }
 

@@ -128,8 +128,7 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
     table->pairs.push_back(static_cast<float>(here));
     table->pairs.push_back(apart > 0 ? static_cast<float>((there - here) / apart) : 0.0F);
   }
-  SPECTILE_ASSIGN(auto index, index_knots(table->nm));
-  table->index = std::move(index);
+  SPECTILE_ASSIGN(table->index, index_knots(table->nm));
   Operation& op = wavelength_operation(to, "look up between irregular knots");
   // The bucket (4), a gather and a comparison a halving (3 each), the line (3), what is outside (4), NaN (2).
   op.operations = 13 + 3.0 * table->index.halvings;

@@ -1,6 +1,7 @@
 // The sections of a report's page. Each is empty where the report has nothing for it.
 #pragma once
 
+#include <algorithm>
 #include <spectile/bench/benchmark.hpp>
 #include <string>
 #include <vector>
@@ -47,9 +48,7 @@ std::vector<std::string> distinct(const std::vector<T>& items, F field) {
   std::vector<std::string> out;
   for (const T& item : items) {
     const std::string value = field(item);
-    bool known = false;
-    for (const std::string& other : out) known = known || other == value;
-    if (!known) out.push_back(value);
+    if (std::find(out.begin(), out.end(), value) == out.end()) out.push_back(value);
   }
   return out;
 }

@@ -31,6 +31,7 @@ float random_magnitude(Random& random) {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSpecial[] = {0.0F,
                               -0.0F,
                               0x1p-149F,
@@ -53,21 +54,18 @@ constexpr float kSpecial[] = {0.0F,
                               -kLargest,
                               kInfinity,
                               -kInfinity,
-                              std::numeric_limits<float>::quiet_NaN()};
+                              kNan};
+
+/// Numbers that are drawn one by one.
+template <auto draw>
+void each(Random& random, float* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) values[i] = draw(random);
+}
 
 const InputSet kSets[] = {
-    {"all bit patterns",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) v[i] = random_bits(random);
-     }},
-    {"special values",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) v[i] = kSpecial[random() % std::size(kSpecial)];
-     }},
-    {"all magnitudes",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) v[i] = random_magnitude(random);
-     }},
+    {"all bit patterns", each<random_bits>},
+    {"special values", each<[](Random& random) { return kSpecial[random() % std::size(kSpecial)]; }>},
+    {"all magnitudes", each<random_magnitude>},
     {"one magnitude",
      [](Random& random, float* v, std::size_t n) {
        const float scale = std::abs(random_magnitude(random));
@@ -93,25 +91,16 @@ const InputSet kSets[] = {
                                   0x1p-24F, 1.0F - 0x1p-24F, 1.0F,      1.0F + 0x1p-23F};
        for (std::size_t i = 0; i < n; ++i) v[i] = kNear[random() % std::size(kNear)];
      }},
-    {"1e-30 and 1e30",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) {
-         v[i] = uniform(random, 0.0F, 1.0F) * ((random() & 1U) == 0 ? 1e-30F : 1e30F);
-       }
-     }},
-    {"0 to 1",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) v[i] = uniform(random, 0.0F, 1.0F);
-     }},
+    {"1e-30 and 1e30", each<[](Random& random) {
+       return uniform(random, 0.0F, 1.0F) * ((random() & 1U) == 0 ? 1e-30F : 1e30F);
+     }>},
+    {"0 to 1", each<[](Random& random) { return uniform(random, 0.0F, 1.0F); }>},
     {"greys and dark colours",
      [](Random& random, float* v, std::size_t n) {
        const float grey = std::ldexp(uniform(random, 0.5F, 1.0F), -static_cast<int>(random() % 40));
        for (std::size_t i = 0; i < n; ++i) v[i] = (random() & 3U) == 0 ? 0.0F : grey;
      }},
-    {"wavelengths",
-     [](Random& random, float* v, std::size_t n) {
-       for (std::size_t i = 0; i < n; ++i) v[i] = uniform(random, 300.0F, 900.0F);
-     }},
+    {"wavelengths", each<[](Random& random) { return uniform(random, 300.0F, 900.0F); }>},
 };
 
 /// Numbers below the smallest normal one are taken and given as 0 while it exists, where the processor can.
