@@ -43,14 +43,11 @@ struct MethodScene {
 
 inline constexpr const char* kRgbJob =
     "RGB texture, under a light, to a colour; the reference is the measured reflectance under the light, "
-    "summed "
-    "at "
-    "every nanometre in double, and all that a method is given is its RGB under D65";
+    "summed at every nanometre in double, and all that a method is given is its RGB under D65";
 inline constexpr const char* kFilmJob =
     "Spectral samples, under a light, to a film; the reference is the measured reflectance under the light, "
-    "summed at "
-    "every nanometre in double, and a method is given its averages over bands, or its values at drawn "
-    "wavelengths";
+    "summed at every nanometre in double, and a method is given its averages over bands, or its values at "
+    "drawn wavelengths";
 
 /// Bands planned for a light, for the spectra that sigmoids make of colours of sRGB: none of the measured
 /// reflectances that errors are over. Errors: as make_plan().

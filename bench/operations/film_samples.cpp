@@ -22,8 +22,7 @@ void add_places(std::vector<Operation>& to, const SharedFilm& film) {
   // weight and reasons (5), extremes (2).
   op.operations = 34;
   op.bottleneck =
-      "comparisons into masks and conversions to integers, of which fewer start at once than of "
-      "products";
+      "comparisons into masks and conversions to integers, of which fewer start at once than of products";
   op.fill = [](Random& random, float* v) {
     v[0] = uniform(random, 0.0F, static_cast<float>(kFilmSide));
     v[1] = uniform(random, 0.0F, static_cast<float>(kFilmSide));

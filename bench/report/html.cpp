@@ -41,8 +41,7 @@ std::string warning_part(const BenchmarkReport& report) {
   for (const std::string& part : report.disturbed) list += fmt::format("<li>{}</li>\n", escaped(part));
   return fmt::format(
       "<aside class=\"warning\" aria-label=\"Warning\">\n<p><strong>⚠ Other work took the processor during "
-      "this "
-      "run.</strong> Do not rely on the times of these parts; repeat the run on an idle "
+      "this run.</strong> Do not rely on the times of these parts; repeat the run on an idle "
       "machine:</p>\n<ul>\n{}</ul>\n"
       "</aside>\n",
       list);
@@ -68,13 +67,12 @@ Section reproduce_section(const BenchmarkReport& report) {
   const std::string version = report.machine.version.empty() ? "" : " " + report.machine.version;
   return make_section(
       "reproduce", "Reproduce", "How to reproduce this page",
-      fmt::format(
-          "<p>With spectile{} on an idle machine; <code>spectile bench --help</code> lists what can be left "
-          "out or chosen:</p>\n<pre><code>spectile bench --report out.html</code></pre>\n"
-          "<p>Times vary with the machine and from run to run: the spread is half the range of the middle "
-          "half of the runs, over their median. Errors do not vary: every instruction set and number of "
-          "threads gives the same bits.</p>\n",
-          escaped(version)));
+      fmt::format("<p>With spectile{} on an idle machine; <code>spectile bench --help</code> lists what can "
+                  "be left out or chosen:</p>\n<pre><code>spectile bench --report out.html</code></pre>\n"
+                  "<p>Times vary with the machine and from run to run: the spread is half the range of the "
+                  "middle half of the runs, over their median. Errors do not vary: every instruction set and "
+                  "number of threads gives the same bits.</p>\n",
+                  escaped(version)));
 }
 
 std::string summary(const BenchmarkReport& report) {
@@ -148,13 +146,10 @@ std::string benchmark_to_html(const BenchmarkReport& benchmark) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n"
       "<style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n"
       "<p>spectile computes with spectra in place of colours; this page says what its operations cost on one "
-      "machine "
-      "in one run, as a share of what that machine can do, and how wrong each is. "
-      "For every method of doing a job it sets the time against the colour error that is left, in CIEDE2000, "
-      "of "
-      "which "
-      "about 1 can just be seen, so that you can take the fastest that is good enough.</p>\n{}</header>\n{}"
-      "<main>\n{}{}{}</main>\n</body>\n</html>\n",
+      "machine in one run, as a share of what that machine can do, and how wrong each is. For every method "
+      "of doing a job it sets the time against the colour error that is left, in CIEDE2000, of which about 1 "
+      "can just be seen, so that you can take the fastest that is good "
+      "enough.</p>\n{}</header>\n{}<main>\n{}{}{}</main>\n</body>\n</html>\n",
       title, report::kStyleSheet, title, report::summary(benchmark), report::navigation(sections),
       machine.code, report::warning_part(benchmark), body);
 }

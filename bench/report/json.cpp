@@ -9,27 +9,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json units() {
-  return {
-      {"bytes", "machine.*_cache, machine.*_bytes, ways.bytes (a pixel, in memory or in a file)"},
-      {"bytes a second", "limits.load, store, stream and copy; operations.bytes_per_second"},
-      {"float operations a second",
-       "limits.multiply_add (multiply and add each count), limits.fused_multiply_add, limits.divide "
-       "(each counts once)"},
-      {"items a second", "operations.items_per_second, of operations.item"},
-      {"nanoseconds an item, one thread",
-       "baseline.nanoseconds (engine), baseline_nanoseconds (scalar array of structures), fused_nanoseconds "
-       "(the same tuned by hand, 0: none)"},
-      {"baseline.error_unit", "baseline.error, baseline.baseline_error"},
-      {"CIEDE2000", "error objects of ways and representations"},
-      {"nanoseconds a pixel or sample, one thread", "ways.nanoseconds"},
-      {"nanoseconds a path, one thread", "representations.nanoseconds"},
-      {"operations.error_unit", "operations.error, operations.bound"},
-      {"stress.unit", "stress.bound (0: exactly the documented result), stress.worst"},
-      {"1",
-       "spread (half the range of the middle half of the runs, over the median), fraction, speed_up, "
-       "scaling.limit, baseline.ratio, baseline.fused_ratio"},
-      {"seconds", "seconds"},
-      {"levels", "cache: second-level cache; memory: DRAM"}};
+  return {{"bytes", "machine.*_cache, machine.*_bytes, ways.bytes (a pixel, in memory or in a file)"},
+          {"bytes a second", "limits.load, store, stream and copy; operations.bytes_per_second"},
+          {"float operations a second",
+           "limits.multiply_add (multiply and add each count), limits.fused_multiply_add, limits.divide "
+           "(each counts once)"},
+          {"items a second", "operations.items_per_second, of operations.item"},
+          {"nanoseconds an item, one thread",
+           "baseline.nanoseconds (engine), baseline_nanoseconds (scalar array of structures), "
+           "fused_nanoseconds (the same tuned by hand, 0: none)"},
+          {"baseline.error_unit", "baseline.error, baseline.baseline_error"},
+          {"CIEDE2000", "error objects of ways and representations"},
+          {"nanoseconds a pixel or sample, one thread", "ways.nanoseconds"},
+          {"nanoseconds a path, one thread", "representations.nanoseconds"},
+          {"operations.error_unit", "operations.error, operations.bound"},
+          {"stress.unit", "stress.bound (0: exactly the documented result), stress.worst"},
+          {"1",
+           "spread (half the range of the middle half of the runs, over the median), fraction, speed_up, "
+           "scaling.limit, baseline.ratio, baseline.fused_ratio"},
+          {"seconds", "seconds"},
+          {"levels", "cache: second-level cache; memory: DRAM"}};
 }
 
 }  // namespace

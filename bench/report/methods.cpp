@@ -139,8 +139,7 @@ std::string against_baseline(const std::vector<Numbered>& methods) {
     const MethodSpeed& w = *better->method;
     out += fmt::format(
         "<li>No less accurate than <em>{}</em> ({} ns, mean {}) and <strong>{} times as fast</strong>: {} "
-        "({} ns, "
-        "mean {}).</li>\n",
+        "({} ns, mean {}).</li>\n",
         escaped(baseline->name), number(baseline->nanoseconds), number(baseline->error.mean),
         number(baseline->nanoseconds / w.nanoseconds), escaped(w.name), number(w.nanoseconds),
         number(w.error.mean));
@@ -180,15 +179,12 @@ std::vector<Section> method_sections(const BenchmarkReport& report) {
     }
     sections.push_back(make_section(
         id, name, escaped(name),
-        fmt::format(
-            "<p class=\"job\">The job: {}.</p>\n"
-            "<p>Each mark is one method. The grey staircase, the <em>frontier</em>, joins the "
-            "methods that "
-            "no other is as fast and as accurate as; its marks have a heavier outline. Errors are CIEDE2000 "
-            "colour "
-            "differences from the reference that the job names, times those of one thread; both axes are "
-            "logarithmic.</p>\n<p>Lights: {}</p>\n{}",
-            escaped(job), links, parts)));
+        fmt::format("<p class=\"job\">The job: {}.</p>\n"
+                    "<p>Each mark is one method. The grey staircase, the <em>frontier</em>, joins the "
+                    "methods that no other is as fast and as accurate as; its marks have a heavier outline. "
+                    "Errors are CIEDE2000 colour differences from the reference that the job names, times "
+                    "those of one thread; both axes are logarithmic.</p>\n<p>Lights: {}</p>\n{}",
+                    escaped(job), links, parts)));
   }
   return sections;
 }

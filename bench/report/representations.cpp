@@ -103,12 +103,9 @@ Section representation_section(const BenchmarkReport& report) {
   if (report.representations.empty()) return {};
   const auto names = distinct(report.representations, [](const auto& r) { return r.name; });
   std::string body =
-      ""
       "<p>A path meets a light, then one material a bounce, and ends as a colour: its products and its "
-      "colour are "
-      "timed, and the colour is compared with that of the same path computed from the spectra themselves. "
-      "The "
-      "number beside a mark is that of the bounces.</p>\n";
+      "colour are timed, and the colour is compared with that of the same path computed from the spectra "
+      "themselves. The number beside a mark is that of the bounces.</p>\n";
   for (const std::string& light : distinct(report.representations, [](const auto& r) { return r.light; })) {
     const bool line_spectrum =
         std::any_of(report.representations.begin(), report.representations.end(),

@@ -138,13 +138,10 @@ std::string level_name(MemoryLevel level) {
 Section operation_section(const BenchmarkReport& report) {
   if (report.operations.empty()) return {};
   std::string body =
-      ""
       "<p>The bar is the share of the operation's limit that it reaches: how fast this machine loads, "
-      "stores, "
-      "copies, or "
-      "multiplies and adds with nothing else to do, measured in the same run. A share above 100 % beats the "
-      "plain loop that the limit was measured with. Bytes are those that an operation must "
-      "read and write. Errors are against double precision; u is 2<sup>−24</sup> of the sum of "
+      "stores, copies, or multiplies and adds with nothing else to do, measured in the same run. A share "
+      "above 100 % beats the plain loop that the limit was measured with. Bytes are those that an operation "
+      "must read and write. Errors are against double precision; u is 2<sup>−24</sup> of the sum of "
       "magnitudes.</p>\n";
   for (const MemoryLevel level : kLevels) body += level_part(report, level);
   return make_section("operations", "Operations", "Operations against the machine's limits", body);
@@ -167,13 +164,11 @@ Section baseline_section(const BenchmarkReport& report) {
                  html(quantity(b.baseline_error, b.error_unit)), fraction_cell(b.fraction), html(b.limit)});
     }
   }
-  return make_section("baseline", "AoS baseline", "Against a scalar array of structures",
-                      fmt::format("<p>The baseline is a struct "
-                                  "of "
-                                  "samples a pixel in plain C++, compiled with -O3 for this processor. "
-                                  "Ratios differ from processor to "
-                                  "processor.</p>\n{}",
-                                  table.code()));
+  return make_section(
+      "baseline", "AoS baseline", "Against a scalar array of structures",
+      fmt::format("<p>The baseline is a struct of samples a pixel in plain C++, compiled with -O3 for this "
+                  "processor. Ratios differ from processor to processor.</p>\n{}",
+                  table.code()));
 }
 
 Section limit_section(const BenchmarkReport& report) {
@@ -196,15 +191,11 @@ Section limit_section(const BenchmarkReport& report) {
   }
   return make_section(
       "limits", "Machine limits", "The machine's limits",
-      fmt::format(""
-                  "<p>Load: bytes read. Store: written by ordinary stores. Stream: written by non-temporal "
-                  "stores. Copy: "
-                  "bytes "
-                  "read and "
-                  "written, together. Multiply-add: multiply, then add, each rounded and counted. Fused: "
-                  "each fused "
-                  "multiply-add counted once. Divide: float divisions.</p>\n{}",
-                  table.code()));
+      fmt::format(
+          "<p>Load: bytes read. Store: written by ordinary stores. Stream: written by non-temporal stores. "
+          "Copy: bytes read and written, together. Multiply-add: multiply, then add, each rounded and "
+          "counted. Fused: each fused multiply-add counted once. Divide: float divisions.</p>\n{}",
+          table.code()));
 }
 
 Section scaling_section(const BenchmarkReport& report) {

@@ -45,11 +45,10 @@ Section stress_section(const BenchmarkReport& report) {
       beyond == 0 ? fmt::format("<p class=\"good\">All {} rows hold", report.stress.size())
                   : fmt::format("<p class=\"bad\">{} of {} rows are <strong>beyond</strong> their bound",
                                 beyond, report.stress.size());
-  return make_section("stress", "Stress test", "How far the numbers hold",
-                      fmt::format("{}, {} cases in all. “Exact” asks for "
-                                  "exactly the "
-                                  "documented result.</p>\n{}",
-                                  verdict, count_text(cases), table.code()));
+  return make_section(
+      "stress", "Stress test", "How far the numbers hold",
+      fmt::format("{}, {} cases in all. “Exact” asks for exactly the documented result.</p>\n{}", verdict,
+                  count_text(cases), table.code()));
 }
 
 }  // namespace spectile::report

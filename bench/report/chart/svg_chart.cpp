@@ -9,10 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "bench/report/chart/chart_head.hpp"
 #include "bench/report/chart/chart_labels.hpp"
-#include "bench/report/chart/chart_marks.hpp"
-#include "bench/report/chart/log_axis.hpp"
+#include "bench/report/chart/chart_parts.hpp"
 
 namespace spectile::report {
 namespace {
@@ -281,9 +279,10 @@ void Drawing::foot(std::vector<const Placed*> numbered) {
   for (const Placed* p : numbered) {
     if (p->mark->label.empty()) continue;
     entries.push_back(
-        {p->mark->label, fmt::format("<text class=\"number\" x=\"10\" y=\"{:.1f}\" text-anchor=\"end\" "
-                                     "font-weight=\"600\">{}</text>",
-                                     0.34 * f_.font, escaped(p->mark->number))});
+        {p->mark->label,
+         fmt::format(
+             "<text class=\"number\" x=\"10\" y=\"{:.1f}\" text-anchor=\"end\" font-weight=\"600\">{}</text>",
+             0.34 * f_.font, escaped(p->mark->number))});
   }
   height_ += 0.4 * f_.font;
   add(legend_block(entries, f_.width, f_.font));
@@ -312,8 +311,8 @@ std::string Drawing::svg() {
   const char* name = alone ? "alone" : form_ == ChartForm::kWide ? "wide" : "narrow";
   return fmt::format(
       "<svg{} class=\"chart {}\" viewBox=\"0 0 {:.0f} {:.0f}\"{} role=\"img\" aria-label=\"{}\" "
-      "font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" font-size=\"{}\">\n{}"
-      "<g class=\"ink\" fill=\"{}\">\n{}</g>\n</svg>\n",
+      "font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" font-size=\"{}\">\n{}<g class=\"ink\" "
+      "fill=\"{}\">\n{}</g>\n</svg>\n",
       alone ? " xmlns=\"http://www.w3.org/2000/svg\"" : "", name, f_.width, height_,
       alone ? fmt::format(" width=\"{:.0f}\" height=\"{:.0f}\"", f_.width, height_) : "",
       escaped(chart_.description), f_.font,
@@ -327,10 +326,10 @@ std::string svg_chart(const Chart& chart, ChartForm form) {
 }
 
 Html mark_in_text(int style) {
-  return {fmt::format(
-      "<svg class=\"key\" viewBox=\"-9 -9 18 18\" aria-hidden=\"true\"><g fill=\"{}\" stroke=\"{}\" "
-      "stroke-width=\"0.8\">{}</g></svg>",
-      style_color(style), kOutline, style_shape(style, 5))};
+  return {
+      fmt::format("<svg class=\"key\" viewBox=\"-9 -9 18 18\" aria-hidden=\"true\"><g fill=\"{}\" "
+                  "stroke=\"{}\" stroke-width=\"0.8\">{}</g></svg>",
+                  style_color(style), kOutline, style_shape(style, 5))};
 }
 
 }  // namespace spectile::report
