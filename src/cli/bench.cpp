@@ -176,7 +176,8 @@ int write_file(const std::string& path, const std::string& text) {
   return cannot_write(path, error);
 }
 
-Result<BenchmarkOptions> make_options(const Arguments& a) {
+/// Throws: Stop.
+BenchmarkOptions make_options(const Arguments& a) {
   BenchmarkOptions out;
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
@@ -188,9 +189,8 @@ Result<BenchmarkOptions> make_options(const Arguments& a) {
   out.only = a.only;
   out.seed = static_cast<std::uint64_t>(a.seed);
   for (const std::string& file : a.reflectances) {
-    auto some = load_spectra(file);
-    if (!some) return some.error();
-    out.reflectances.insert(out.reflectances.end(), some->begin(), some->end());
+    const std::vector<Spectrum> some = take(load_spectra(file));
+    out.reflectances.insert(out.reflectances.end(), some.begin(), some.end());
   }
   const bool show = !a.quiet && !a.json;
   out.progress = [bar = progress_bar("bench", show)](const std::string&, double done) {
@@ -213,28 +213,27 @@ std::string make_plot(const BenchmarkReport& r) {
 
 int run(const Arguments& a) {
   catch_signals();
-  auto options = make_options(a);
-  if (!options) return complain(options.error());
+  BenchmarkOptions options = make_options(a);
   for (const std::string& path : {a.report, a.plot}) {
     if (const int bad = check_writable(path); bad != kOk) return bad;
   }
-  const auto report = run_benchmark(*options);
-  options->progress = nullptr;  // clears the bar
-  if (!report) return complain(report.error());
-  if (const int bad = write_file(a.report, benchmark_to_html(*report)); bad != kOk) return bad;
-  if (const int bad = write_file(a.plot, make_plot(*report)); bad != kOk) return bad;
+  auto result = run_benchmark(options);
+  options.progress = nullptr;  // clears the bar
+  const BenchmarkReport report = take(std::move(result));
+  if (const int bad = write_file(a.report, benchmark_to_html(report)); bad != kOk) return bad;
+  if (const int bad = write_file(a.plot, make_plot(report)); bad != kOk) return bad;
   int beyond = 0;
   if (a.json) {
-    fmt::print("{}\n", benchmark_to_json(*report));
-    for (const StressResult& s : report->stress) beyond += s.beyond > 0 ? 1 : 0;
+    fmt::print("{}\n", benchmark_to_json(report));
+    for (const StressResult& s : report.stress) beyond += s.beyond > 0 ? 1 : 0;
   } else {
-    print_machine(*report);
-    print_operations(*report);
-    print_baseline(*report);
-    print_methods(*report);
-    print_representations(*report);
-    beyond = print_stress(*report);
-    fmt::print("\n{:.0f} s\n", report->seconds);
+    print_machine(report);
+    print_operations(report);
+    print_baseline(report);
+    print_methods(report);
+    print_representations(report);
+    beyond = print_stress(report);
+    fmt::print("\n{:.0f} s\n", report.seconds);
   }
   if (beyond == 0) return kOk;
   fmt::print(stderr, "spectile: {} operation{} beyond the stated bound\n", beyond,
@@ -247,23 +246,17 @@ int run(const Arguments& a) {
 void add_bench(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("bench", "Measure limits, throughput and error on this machine");
-  const auto option = [command](const char* flag, auto& value, const char* type, const char* group,
-                                const char* text) {
-    return command->add_option(flag, value, text)->type_name(type)->group(group);
-  };
-  const auto flag = [command](const char* name, bool& value, const char* group, const char* text) {
-    return command->add_flag(name, value, text)->group(group);
-  };
+  const OptionAdder option{*command};
   option("--report", a->report, "FILE", kFilesGroup, "Write the report as one page of HTML, with its plots");
   option("--plot", a->plot, "FILE", kFilesGroup, "Write one plot as SVG: error against time of film samples");
   option("--reflectances", a->reflectances, "FILE", kFilesGroup,
          "Measured reflectances to evaluate errors on; the ColorChecker by default");
   constexpr const char* kMeasured = "Measurements";
-  flag("--quick", a->quick, kMeasured,
-       "Half a minute: the fastest instruction set, fewer methods and rounds");
-  CLI::Option* const stress = flag("--stress", a->stress, kMeasured, "Also run the long stress test");
-  flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test")->excludes(stress);
-  flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");
+  option.flag("--quick", a->quick, kMeasured,
+              "Half a minute: the fastest instruction set, fewer methods and rounds");
+  CLI::Option* const stress = option.flag("--stress", a->stress, kMeasured, "Also run the long stress test");
+  option.flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test")->excludes(stress);
+  option.flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");
   option("--only", a->only, "TEXT", kMeasured, "Only operations whose name contains this; no methods");
   option("--illuminant", a->lights, "NAME", kMeasured,
          "Illuminants of the methods; D65,A,FL11,HP1 by default")
@@ -277,8 +270,8 @@ void add_bench(CLI::App& app, int& exit) {
       ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->capture_default_str();
-  flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
-  flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
+  option.flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
+  option.flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
   command->set_help_flag("-h,--help", "Print this help message and exit")->group(kRunGroup);
   command->footer(
       "Example:\n  spectile bench --quick --report bench.html\n"

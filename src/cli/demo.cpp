@@ -75,7 +75,7 @@ std::array<double, 2> differences(const RgbImage& a, const RgbImage& b) {
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   catch_signals();
   std::error_code error;
   std::filesystem::create_directories(a.directory, error);
@@ -88,68 +88,57 @@ int run(const Arguments& a) {
   const std::string spectral_path = (folder / "chart-spectral.exr").string();
   const std::string back_path = (folder / "chart-back.exr").string();
 
-  const auto chart = make_chart();
-  if (!chart) return complain(chart.error());
+  const ColorLanes chart = take(make_chart());
   const ProgressFunction go_on = [](const Progress&) { return !interrupted(); };
   ImageOptions plain;
   plain.threads = a.common.threads;
   plain.progress = go_on;
-  if (auto written = write_rgb_image(chart_path, chart->view(), kWidth, kHeight, plain); !written) {
-    return complain(written.error());
-  }
+  take(write_rgb_image(chart_path, chart.view(), kWidth, kHeight, plain));
   UpsampleImageOptions up;
   up.threads = a.common.threads;
   up.progress = go_on;
-  const auto upsampled = upsample_image(chart_path, spectral_path, up);
-  if (!upsampled) return complain(upsampled.error());
+  const ImageReport upsampled = take(upsample_image(chart_path, spectral_path, up));
   ProjectImageOptions down;
   down.threads = a.common.threads;
   down.progress = go_on;
   down.pixel = SampleType::kFloat;
-  const auto projected = project_image(spectral_path, back_path, down);
-  if (!projected) return complain(projected.error());
-  const auto verified = verify_image(chart_path, up);
-  if (!verified) return complain(verified.error());
-  const auto before = read_rgb_image(chart_path, {}, a.common.threads);
-  if (!before) return complain(before.error());
-  const auto after = read_rgb_image(back_path, {}, a.common.threads);
-  if (!after) return complain(after.error());
-  const auto [mean, maximum] = differences(*before, *after);
+  const ImageReport projected = take(project_image(spectral_path, back_path, down));
+  const VerifyReport verified = take(verify_image(chart_path, up));
+  const RgbImage before = take(read_rgb_image(chart_path, {}, a.common.threads));
+  const RgbImage after = take(read_rgb_image(back_path, {}, a.common.threads));
+  const auto [mean, maximum] = differences(before, after);
 
   if (a.common.json) {
-    const nlohmann::json out = {
-        {"isa", verified->isa},
-        {"chart", chart_path},
-        {"spectral", spectral_path},
-        {"back", back_path},
-        {"upsample_mpixel_per_s", static_cast<double>(upsampled->pixels()) / upsampled->seconds * 1e-6},
-        {"project_mpixel_per_s", static_cast<double>(projected->pixels()) / projected->seconds * 1e-6},
-        {"different_samples", verified->different_samples},
-        {"oracle_difference", verified->max_oracle_difference},
-        {"round_trip_mean", mean},
-        {"round_trip_max", maximum}};
-    print_json(out);
+    print_json({{"isa", verified.isa},
+                {"chart", chart_path},
+                {"spectral", spectral_path},
+                {"back", back_path},
+                {"upsample_mpixel_per_s", static_cast<double>(upsampled.pixels()) / upsampled.seconds * 1e-6},
+                {"project_mpixel_per_s", static_cast<double>(projected.pixels()) / projected.seconds * 1e-6},
+                {"different_samples", verified.different_samples},
+                {"oracle_difference", verified.max_oracle_difference},
+                {"round_trip_mean", mean},
+                {"round_trip_max", maximum}});
   } else if (!a.common.quiet) {
     fmt::print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
     fmt::print(
         "{}: upsampled to {} bands, {}, {}; kernels ({}) equal the reference in {} of {} samples, which is "
         "within {:.2g} of double\n",
-        spectral_path, upsampled->bands, speed_text(upsampled->pixels(), upsampled->seconds),
-        size_text(upsampled->bytes_written), verified->isa, verified->samples - verified->different_samples,
-        verified->samples, verified->max_oracle_difference);
+        spectral_path, upsampled.bands, speed_text(upsampled.pixels(), upsampled.seconds),
+        size_text(upsampled.bytes_written), verified.isa, verified.samples - verified.different_samples,
+        verified.samples, verified.max_oracle_difference);
     fmt::print("{}: projected back under D65, {}\n", back_path,
-               speed_text(projected->pixels(), projected->seconds));
+               speed_text(projected.pixels(), projected.seconds));
     fmt::print(
         "round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: error of the method and of "
         "16-bit rounding\n",
         mean, maximum);
     const std::array<int, 2> at = {kWidth / 6 + 40, kHeight / 8};
-    const auto info = inspect_image(spectral_path, at, a.common.threads);
-    if (!info) return complain(info.error());
+    const ImageInfo info = take(inspect_image(spectral_path, at, a.common.threads));
     fmt::print("the spectrum of pixel {},{}:\n", at[0], at[1]);
-    for (const std::string& line : plot(info->pixel, *info->bands)) fmt::print("{}\n", line);
+    for (const std::string& line : plot(info.pixel, *info.bands)) fmt::print("{}\n", line);
   }
-  return verified->ok() ? kOk : kBadInput;
+  return verified.ok() ? kOk : kBadInput;
 }
 
 }  // namespace

@@ -111,21 +111,18 @@ void print_pixel(const ImageInfo& info, const std::string& where) {
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   std::optional<std::array<int, 2>> pixel;
   if (!a.pixel.empty()) {
     pixel = parse_pixel(a.pixel);
-    if (!pixel) {
-      return complain_usage(fmt::format("--pixel {} is not X,Y", a.pixel));
-    }
+    if (!pixel) return complain_usage(fmt::format("--pixel {} is not X,Y", a.pixel));
   }
-  const auto info = inspect_image(a.input, pixel, a.common.threads);
-  if (!info) return complain(info.error());
+  const ImageInfo info = take(inspect_image(a.input, pixel, a.common.threads));
   if (a.common.json) {
-    print_json(to_json(a.input, *info));
+    print_json(to_json(a.input, info));
   } else if (!a.common.quiet) {
-    print_info(a.input, *info);
-    if (pixel) print_pixel(*info, a.pixel);
+    print_info(a.input, info);
+    if (pixel) print_pixel(info, a.pixel);
   }
   return kOk;
 }
@@ -136,10 +133,8 @@ void add_info(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("info", "Print image metadata, and a pixel's spectrum");
   command->add_option("FILE", a->input, "Any flat OpenEXR image")->type_name("")->required();
-  command
-      ->add_option("--pixel", a->pixel, "Show this pixel, counted from the data window's upper left corner")
-      ->type_name("X,Y")
-      ->group(kFilesGroup);
+  OptionAdder{*command}("--pixel", a->pixel, "X,Y", kFilesGroup,
+                        "Show this pixel, counted from the data window's upper left corner");
   add_common(*command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
   command->callback([a, &exit] { exit = run(*a); });
 }

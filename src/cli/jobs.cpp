@@ -29,25 +29,25 @@ class Manifest {
   Manifest(const Manifest&) = delete;
   Manifest& operator=(const Manifest&) = delete;
 
-  /// Returns an exit code; prints the error.
-  int open(const std::string& path) {
+  /// Throws: Stop.
+  void open(const std::string& path) {
     path_ = path;
     fd_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    return fd_ >= 0 ? kOk : complain_write(path, errno);
+    if (fd_ < 0) throw Stop(complain_write(path, errno));
   }
 
-  /// Adds a line; nothing where no file is open. Returns an exit code; prints the error.
-  int add(const nlohmann::json& line) const {
-    if (fd_ < 0) return kOk;
+  /// Adds a line; nothing where no file is open. Throws: Stop.
+  void add(const nlohmann::json& line) const {
+    if (fd_ < 0) return;
     const std::string text = json_line(line) + "\n";
     ssize_t written = -1;
     // One write, so that no other process's line comes between.
     do {
       written = ::write(fd_, text.data(), text.size());
     } while (written < 0 && errno == EINTR);
-    if (written == static_cast<ssize_t>(text.size())) return kOk;
+    if (written == static_cast<ssize_t>(text.size())) return;
     complain_write(path_, written < 0 ? errno : ENOSPC);
-    return kNoRoom;
+    throw Stop(kNoRoom);
   }
 
  private:
@@ -62,41 +62,44 @@ struct Batch {
   std::optional<Shard> shard;  ///< none: all of them
 };
 
-/// Makes the output folder. Returns an exit code; prints the error.
-int make_folder(const std::string& path) {
+/// Makes the output folder. Throws: Stop.
+void make_folder(const std::string& path) {
   std::error_code error;
   std::error_code ignored;
   fs::create_directories(path, error);
-  if (!error && fs::is_directory(path, ignored)) return kOk;
+  if (!error && fs::is_directory(path, ignored)) return;
   const bool denied = error == std::errc::permission_denied || error == std::errc::no_space_on_device ||
                       error == std::errc::read_only_file_system;
-  return complain({denied ? ErrorCode::kNoPermission : ErrorCode::kBadArgument,
-                   fmt::format("{}: cannot be made a directory{}{}", path, error ? ": " : "",
-                               error ? error.message() : "")});
+  throw Stop(complain({denied ? ErrorCode::kNoPermission : ErrorCode::kBadArgument,
+                       fmt::format("{}: cannot be made a directory{}{}", path, error ? ": " : "",
+                                   error ? error.message() : "")}));
 }
 
 /// Pairs inputs with outputs: one file, or each into a folder under its own name. The folder is made where it
-/// does not exist and there are several inputs or the name ends in a slash.
-int pair_outputs(const std::vector<std::string>& inputs, const std::string& output, std::vector<Job>& jobs) {
+/// does not exist and there are several inputs or the name ends in a slash. Throws: Stop.
+std::vector<Job> pair_outputs(const std::vector<std::string>& inputs, const std::string& output) {
   std::error_code ignored;
   bool directory = fs::is_directory(output, ignored);
   if (!directory && (inputs.size() > 1 || output.ends_with('/'))) {
-    if (const int bad = make_folder(output)) return bad;
+    make_folder(output);
     directory = true;
   }
+  std::vector<Job> jobs;
   std::set<std::string> taken;
   for (const std::string& input : inputs) {
     std::string target = directory ? (fs::path(output) / fs::path(input).filename()).string() : output;
     if (!taken.insert(target).second) {
-      return complain_usage(fmt::format("{}: two inputs would be written there", target));
+      throw Stop(complain_usage(fmt::format("{}: two inputs would be written there", target)));
     }
     jobs.push_back({input, std::move(target)});
   }
-  return kOk;
+  return jobs;
 }
 
-int plan_batch(const ImageCommand& command, Batch& out) {
-  if (const int bad = take_shard(command.batch, out.shard)) return bad;
+/// Throws: Stop.
+Batch plan_batch(const ImageCommand& command) {
+  Batch out;
+  out.shard = shard_of(command.batch);
   std::vector<std::string> all = command.inputs;
   if (out.shard) {
     // Every process finds the same shards, in whatever order its shell lists the inputs.
@@ -104,13 +107,13 @@ int plan_batch(const ImageCommand& command, Batch& out) {
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   out.inputs = all.size();
-  if (const int bad = pair_outputs(all, command.output, out.jobs)) return bad;
-  if (!out.shard) return kOk;
+  out.jobs = pair_outputs(all, command.output);
+  if (!out.shard) return out;
   std::vector<Job> mine;
   for (std::size_t i = out.shard->index; i < out.jobs.size(); i += out.shard->count)
     mine.push_back(out.jobs[i]);
   out.jobs = std::move(mine);
-  return kOk;
+  return out;
 }
 
 }  // namespace
@@ -139,10 +142,9 @@ std::string file_of_bands(const std::string& bands) {
 
 void ImageCommand::add_files(CLI::App& command, const std::string& input_help) {
   command.add_option("IN", inputs, input_help)->type_name("FILE")->required();
-  command.add_option("-o,--output", output, "Output file, or folder for several inputs")
-      ->type_name("PATH")
-      ->required()
-      ->group(kFilesGroup);
+  OptionAdder{command}("-o,--output", output, "PATH", kFilesGroup,
+                       "Output file, or folder for several inputs")
+      ->required();
 }
 
 void ImageCommand::add_options(CLI::App& command, const std::string& pixel_default,
@@ -154,21 +156,18 @@ void ImageCommand::add_options(CLI::App& command, const std::string& pixel_defau
   add_common(command, common, example);
 }
 
-int ImageCommand::apply(ImageOptions& out) const {
-  if (const int bad = apply_common(common)) return bad;
-  if (const int bad = apply_write_options(write, common, out)) return bad;
-  return apply_region(batch, out);
+void ImageCommand::apply(ImageOptions& out) const {
+  apply_common(common);
+  apply_write_options(write, common, out);
+  out.region = region_of(batch);
 }
 
 int run_jobs(const ImageCommand& command, const std::string& settings,
              const std::vector<std::string>& dependencies, ProgressFunction& progress,
              const Conversion& convert) {
-  Batch batch;
-  if (const int bad = plan_batch(command, batch)) return bad;
+  const Batch batch = plan_batch(command);
   Manifest manifest;
-  if (!command.batch.manifest.empty()) {
-    if (const int bad = manifest.open(command.batch.manifest)) return bad;
-  }
+  if (!command.batch.manifest.empty()) manifest.open(command.batch.manifest);
   const Common& common = command.common;
   int exit = kOk;
   std::size_t skipped = 0;
@@ -197,7 +196,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
       std::error_code error;
       const auto bytes = fs::file_size(job.output, error);
       if (!error) entry["bytes"] = bytes;
-      if (const int bad = manifest.add(entry)) return bad;
+      manifest.add(entry);
       if (interrupted()) return kInterrupted;
       continue;
     }
@@ -215,7 +214,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
       }
       nlohmann::json entry = line(job, "failed");
       entry["error"] = report.error().message;
-      if (const int bad = manifest.add(entry)) return bad;
+      manifest.add(entry);
       if (interrupted()) return kInterrupted;
       continue;
     }
@@ -230,7 +229,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
     entry["bands"] = report->bands;
     entry["seconds"] = report->seconds;
     entry["bytes"] = report->bytes_written;
-    if (const int bad = manifest.add(entry)) return bad;
+    manifest.add(entry);
   }
   if (command.batch.update && common.shows_text()) {
     const std::size_t failed = batch.jobs.size() - converted - skipped;

@@ -36,8 +36,8 @@ struct ImageCommand {
   void add_files(CLI::App& command, const std::string& input_help);
   /// Adds all other common options; `example` ends the help.
   void add_options(CLI::App& command, const std::string& pixel_default, const std::string& example);
-  /// Fills `out`. Returns an exit code; prints the error.
-  int apply(ImageOptions& out) const;
+  /// Fills `out`. Throws: Stop.
+  void apply(ImageOptions& out) const;
 };
 
 /// Converts one job with the options.

@@ -46,6 +46,8 @@ int run(int argc, char** argv) {
     for (char& c : text) c = c == '\n' ? ' ' : c;
     fmt::print(stderr, "spectile: {} (see spectile --help)\n", text);
     return kBadUsage;
+  } catch (const Stop& stop) {
+    exit = stop.exit;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     fmt::print(stderr, "spectile: cannot write to standard output\n");

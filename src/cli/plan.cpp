@@ -45,81 +45,75 @@ struct Scene {
   std::string from;  ///< "24 reflectances and 128 colours of 1 texture"
 };
 
-int add_lights(const Arguments& a, PlannerOptions& out) {
+/// Throws: Stop.
+void add_lights(const Arguments& a, PlannerOptions& out) {
   for (const std::string& text : a.lights) {
-    auto named = find_light(text);
-    if (!named) return complain(named.error());
+    NamedLight named = take(find_light(text));
     for (const NamedLight& other : out.lights) {
-      if (other.name == named->name)
-        return complain_usage(fmt::format("two illuminants are called {}", other.name), kName);
+      if (other.name == named.name)
+        throw Stop(complain_usage(fmt::format("two illuminants are called {}", other.name), kName));
     }
-    out.lights.push_back(*std::move(named));
+    out.lights.push_back(std::move(named));
   }
-  return kOk;
 }
 
-/// All spectra of a file, or one by its name.
-Result<std::vector<Spectrum>> reflectances_of(const std::string& text) {
+/// All spectra of a file, or one by its name. Throws: Stop.
+std::vector<Spectrum> reflectances_of(const std::string& text) {
   auto named = find_spectrum(text);
-  if (named && named_spectrum(text)) return std::vector<Spectrum>{*std::move(named)};
-  if (!named && named.error().code == ErrorCode::kUnknownName) return named.error();
-  return load_spectra(text);
+  if (named ? static_cast<bool>(named_spectrum(text)) : named.error().code == ErrorCode::kUnknownName) {
+    return {take(std::move(named))};
+  }
+  return take(load_spectra(text));
 }
 
 /// Reflectances for scenes of which nothing is known: the 24 patches of the ColorChecker and a grid of sRGB.
-Result<std::vector<Spectrum>> default_reflectances() {
+/// Throws: Stop.
+std::vector<Spectrum> default_reflectances() {
   std::vector<Spectrum> out;
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (info.kind != "reflectance") continue;
-    auto patch = named_spectrum(info.name);
-    if (!patch) return patch.error();
-    out.push_back(*std::move(patch));
+    out.push_back(take(named_spectrum(info.name)));
   }
-  const auto bands = Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5);
-  if (!bands) return bands.error();
-  const auto upsampler = Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *bands);
-  if (!upsampler) return upsampler.error();
+  const Bands bands = take(Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
+  const Upsampler upsampler = take(Upsampler::create(Method::kSigmoid, Quantity::kReflectance, bands));
   constexpr int kSide = 4;
   for (int i = 1; i < kSide * kSide * kSide; ++i) {  // 0 is black
     const auto step = [](int n) { return static_cast<double>(n % kSide) / (kSide - 1); };
-    auto color = rgb_albedo_spectrum(*upsampler, {step(i), step(i / kSide), step(i / kSide / kSide)});
-    if (!color) return color.error();
-    out.emplace_back(*std::move(color));
+    out.emplace_back(
+        take(rgb_albedo_spectrum(upsampler, {step(i), step(i / kSide), step(i / kSide / kSide)})));
   }
   return out;
 }
 
-int add_textures(const Arguments& a, std::vector<Spectrum>& out) {
+/// Throws: Stop.
+void add_textures(const Arguments& a, std::vector<Spectrum>& out) {
   MethodOptions options;
   options.threads = a.common.threads;
   options.layer = a.layer;
   options.nonfinite = a.nonfinite;
-  if (const int bad = take(parse_method(a.method), options.method)) return bad;
-  if (const int bad = take_space(a.input_space, options.input_space)) return bad;
+  options.method = take(parse_method(a.method));
+  options.input_space = space_of(a.input_space);
   for (const std::string& texture : a.textures) {
     options.progress =
         progress_bar(std::filesystem::path(texture).filename().string(), a.common.shows_text());
-    auto colors = texture_reflectances(texture, a.colors, options);
-    options.progress = nullptr;
-    if (!colors) return complain(colors.error());
-    out.insert(out.end(), colors->begin(), colors->end());
+    auto result = texture_reflectances(texture, a.colors, options);
+    options.progress = nullptr;  // clears the bar
+    const std::vector<Spectrum> colors = take(std::move(result));
+    out.insert(out.end(), colors.begin(), colors.end());
   }
-  return kOk;
 }
 
-int add_reflectances(const Arguments& a, Scene& out) {
+/// Throws: Stop.
+void add_reflectances(const Arguments& a, Scene& out) {
   auto& all = out.options.reflectances;
   for (const std::string& text : a.reflectances) {
-    auto some = reflectances_of(text);
-    if (!some) return complain(some.error());
-    all.insert(all.end(), some->begin(), some->end());
+    const std::vector<Spectrum> some = reflectances_of(text);
+    all.insert(all.end(), some.begin(), some.end());
   }
   const std::size_t measured = all.size();
-  if (const int bad = add_textures(a, all)) return bad;
+  add_textures(a, all);
   if (a.reflectances.empty() && a.textures.empty()) {
-    auto defaults = default_reflectances();
-    if (!defaults) return complain(defaults.error());
-    all = *std::move(defaults);
+    all = default_reflectances();
     out.from = "the ColorChecker and a grid of sRGB";
   } else if (a.textures.empty()) {
     out.from = fmt::format("{} reflectances", measured);
@@ -128,7 +122,6 @@ int add_reflectances(const Arguments& a, Scene& out) {
   } else {
     out.from = fmt::format("{} reflectances and {} colours of textures", measured, all.size() - measured);
   }
-  return kOk;
 }
 
 void print_errors(const ColorError& e) {
@@ -160,11 +153,11 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   if (a.bands.has_value() == a.max_error.has_value())
     return complain_usage("give either --bands or --max-error", kName);
   for (const auto* const files : {&a.lights, &a.reflectances, &a.textures}) {
-    if (const auto good = check_output(a.output, *files); !good) return complain(good.error());
+    take(check_output(a.output, *files));
   }
   catch_signals();
   Scene scene;
@@ -175,8 +168,8 @@ int run(const Arguments& a) {
   o.max_error = a.max_error;
   o.observer = a.observer;
   o.folds = a.folds;
-  if (const int bad = add_lights(a, o)) return bad;
-  if (const int bad = add_reflectances(a, scene)) return bad;
+  add_lights(a, o);
+  add_reflectances(a, scene);
   const auto start = std::chrono::steady_clock::now();
   const auto plan = make_plan(o);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -187,7 +180,7 @@ int run(const Arguments& a) {
     return kBadInput;
   }
   if (interrupted()) return complain({ErrorCode::kCancelled, "stopped on request"});
-  if (const auto saved = save_plan(*plan, a.output); !saved) return complain(saved.error());
+  take(save_plan(*plan, a.output));
   if (a.common.json) {
     fmt::print("{}\n", nlohmann::ordered_json::parse(plan_to_json(*plan)).dump());
   } else if (!a.common.quiet) {
@@ -202,10 +195,7 @@ void add_plan(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("plan", "Choose the few wavelengths or bands that a scene's colours need");
-  const auto option = [command](const char* flag, auto& value, const char* type, const char* group,
-                                const char* text) {
-    return command->add_option(flag, value, text)->type_name(type)->group(group);
-  };
+  const OptionAdder option{*command};
   option("-o,--output", a->output, "FILE", kFilesGroup, "Plan to write, as JSON")->required();
   option("--reflectances", a->reflectances, "FILE", kFilesGroup,
          "Reflectances of the scene: files, or names of spectra; a general set by default");
@@ -227,9 +217,8 @@ void add_plan(CLI::App& app, int& exit) {
       ->check(CLI::Range(std::size_t{3}, std::size_t{64}).description(""));
   option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
          "Instead: the smallest number that meets this maximum error");
-  add_choice(*command, "--sample", a->sample, kSamplings,
-             "points (values at wavelengths), or bands (averages, as upsample writes)")
-      ->group(kBandsGroup);
+  option.choice("--sample", a->sample, kSamplings, kBandsGroup,
+                "points (values at wavelengths), or bands (averages, as upsample writes)");
   option("--folds", a->folds, "N", kBandsGroup, "Folds of the cross-validation; 0: none, which is quicker")
       ->check(CLI::Range(0, 1000).description(""))
       ->capture_default_str();

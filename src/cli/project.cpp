@@ -22,14 +22,10 @@ struct Arguments {
 int run(const Arguments& a) {
   ProjectImageOptions options;
   options.pixel = SampleType::kFloat;
-  if (const int bad = a.image.apply(options)) return bad;
+  a.image.apply(options);
   options.target = a.to;
   options.observer = a.observer;
-  if (!a.illuminant.empty()) {
-    auto illuminant = find_light(a.illuminant);
-    if (!illuminant) return complain(illuminant.error());
-    options.light = std::move(illuminant->spectrum);
-  }
+  if (!a.illuminant.empty()) options.light = take(find_light(a.illuminant)).spectrum;
   options.adaptation = a.adapt;
   options.quantity = a.quantity;
   return run_jobs(a.image, settings_text(options), files_among({a.illuminant}), options.progress,
@@ -42,14 +38,13 @@ void add_project(CLI::App& app, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("project", "Turn spectral images into colour");
   a->image.add_files(*command, "Spectral OpenEXR images (channels T.*nm or S0.*nm)");
-  command->add_option("--illuminant", a->illuminant, "Illuminant on reflectances; D65 by default")
-      ->type_name("SPECTRUM")
-      ->group(kColorGroup);
+  const OptionAdder option{*command};
+  option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
+         "Illuminant on reflectances; D65 by default");
   add_observer_option(*command, a->observer);
   add_target_options(*command, a->to, a->adapt);
-  add_choice(*command, "--quantity", a->quantity, kQuantities,
-             "reflectance or illuminant, where a file holds both")
-      ->group(kColorGroup);
+  option.choice("--quantity", a->quantity, kQuantities, kColorGroup,
+                "reflectance or illuminant, where a file holds both");
   a->image.add_options(
       *command, "float",
       std::string("spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n") +

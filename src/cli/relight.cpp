@@ -22,11 +22,9 @@ struct Arguments {
 };
 
 int run(const Arguments& a) {
-  auto illuminant = find_light(a.illuminant);
-  if (!illuminant) return complain(illuminant.error());
-  RelightImageOptions options(*std::move(illuminant));
-  if (const int bad = a.image.apply(options)) return bad;
-  if (const int bad = apply_method_options(a.method, options)) return bad;
+  RelightImageOptions options(take(find_light(a.illuminant)));
+  a.image.apply(options);
+  apply_method_options(a.method, options);
   options.target = a.to;
   options.seen_by = a.observer;
   options.adaptation = a.adapt;
@@ -44,15 +42,12 @@ void add_relight(CLI::App& app, int& exit) {
   CLI::App* command =
       app.add_subcommand("relight", "Show textures under another illuminant, without spectral images");
   a->image.add_files(*command, "RGB OpenEXR images");
-  command->add_option("--illuminant", a->illuminant, "Illuminant to show them under")
-      ->type_name("SPECTRUM")
-      ->required()
-      ->group(kColorGroup);
+  const OptionAdder option{*command};
+  option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup, "Illuminant to show them under")->required();
   add_observer_option(*command, a->observer);
   add_target_options(*command, a->to, a->adapt);
-  add_choice(*command, "--way", a->mode, kModes,
-             "direct, or spectra: spectrum by spectrum, to check the former")
-      ->group(kColorGroup);
+  option.choice("--way", a->mode, kModes, kColorGroup,
+                "direct, or spectra: spectrum by spectrum, to check the former");
   add_method_options(*command, a->method);
   a->image.add_options(
       *command, "half",

@@ -197,11 +197,9 @@ void print_text(const Shown& s, const Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   if (!a.which) return list_all(a);
-  auto spectrum = spectrum_of(a);
-  if (!spectrum) return complain(spectrum.error());
-  const Shown shown = describe(a, *std::move(spectrum));
+  const Shown shown = describe(a, take(spectrum_of(a)));
   if (a.csv) {
     print_csv(shown, a);
   } else if (a.common.json) {
@@ -222,21 +220,17 @@ void add_spectra(CLI::App& app, int& exit) {
                    "Name, file (CSV, .sp, .cmf), or blackbody:KELVIN, daylight:KELVIN, constant:VALUE")
       ->type_name("");
   constexpr const char* kGroup = "Values";
-  CLI::Option* const csv =
-      command->add_flag("--csv", a->csv, "Print comma-separated values only")->group(kGroup);
-  command->add_option("--at", a->at, "Print the value at this wavelength in nm; may be repeated")
-      ->type_name("NM")
+  const OptionAdder option{*command};
+  CLI::Option* const csv = option.flag("--csv", a->csv, kGroup, "Print comma-separated values only");
+  option("--at", a->at, "NM", kGroup, "Print the value at this wavelength in nm; may be repeated")
       ->allow_extra_args(false)
       ->check([](const std::string& text) {
         double nm = 0;
         const bool good = CLI::detail::lexical_cast(text, nm) && std::isfinite(nm);
         return good ? std::string() : text + " is not a wavelength";
-      })
-      ->group(kGroup);
-  command->add_option("--column", a->column, "Data row of a CGATS file that holds several, from 0")
-      ->type_name("N")
-      ->check(CLI::Range(0, 999999).description(""))
-      ->group(kGroup);
+      });
+  option("--column", a->column, "N", kGroup, "Data row of a CGATS file that holds several, from 0")
+      ->check(CLI::Range(0, 999999).description(""));
   add_common(*command, a->common, "spectile spectra blackbody:3200 --at 555");
   csv->excludes("--json");
   command->callback([a, &exit] {

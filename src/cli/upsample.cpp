@@ -20,8 +20,8 @@ struct Arguments {
 
 int run(const Arguments& a) {
   UpsampleImageOptions options;
-  if (const int bad = a.image.apply(options)) return bad;
-  if (const int bad = apply_method_options(a.method, options)) return bad;
+  a.image.apply(options);
+  apply_method_options(a.method, options);
   options.store = a.store;
   options.skip = !a.no_skip;
   if (!a.mask.empty()) options.masking = a.mask == "none" ? Masking::kNone : Masking::kFile;
@@ -39,21 +39,18 @@ void add_upsample(CLI::App& app, int& exit) {
   CLI::App* command = app.add_subcommand("upsample", "Turn RGB images into spectral ones");
   a->image.add_files(*command, "RGB OpenEXR images: half, float or uint, scanline or tiled");
   add_method_options(*command, a->method);
-  command
-      ->add_option("--mask", a->mask,
-                   "Image that is 0 where pixels become black, or none; own alpha by default")
-      ->type_name("FILE")
-      ->group(kFilesGroup);
-  add_choice(*command, "--store", a->store, kStores,
-             "spectra: a channel per band; coefficients: for spectile expand")
-      ->group(kFormatGroup);
+  const OptionAdder option{*command};
+  option("--mask", a->mask, "FILE", kFilesGroup,
+         "Image that is 0 where pixels become black, or none; own alpha by default");
+  option.choice("--store", a->store, kStores, kFormatGroup,
+                "spectra: a channel per band; coefficients: for spectile expand");
   a->image.add_options(
       *command, "half",
       std::string("spectile upsample wood.exr -o wood-s.exr --method sigmoid --bands 380:780:5\n") +
           kSpectrumHelp);
-  command->add_flag("--no-skip", a->no_skip, "Compute black, constant and repeated parts too; same bytes")
-      ->group(kRunGroup);
-  command->add_flag("--stats", a->image.common.stats, "Print what was skipped")->group(kRunGroup);
+  option.flag("--no-skip", a->no_skip, kRunGroup,
+              "Compute black, constant and repeated parts too; same bytes");
+  option.flag("--stats", a->image.common.stats, kRunGroup, "Print what was skipped");
   command->callback([a, &exit] { exit = run(*a); });
 }
 

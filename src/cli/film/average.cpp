@@ -46,13 +46,11 @@ void print_report(const Arguments& a, const ImageReport& r) {
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   AverageOptions options;
-  if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
+  apply_write_options(a.write, a.common, options);
   if (a.write.pixel) options.stored = options.pixel;
-  if (a.weights) {
-    if (const int bad = take(parse_weights(*a.weights), options.weights)) return bad;
-  }
+  if (a.weights) options.weights = take(parse_weights(*a.weights));
   catch_signals();
   options.progress = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
   const auto report = average_images(a.inputs, a.output, options);
@@ -79,13 +77,10 @@ void add_film_average(CLI::App& film, int& exit) {
   command->add_option("IN", a->inputs, "OpenEXR images with the same windows and channels")
       ->type_name("FILE")
       ->required();
-  command->add_option("-o,--output", a->output, "Image to write")
-      ->type_name("FILE")
-      ->required()
-      ->group(kFilesGroup);
-  command->add_option("--weights", a->weights, "Weight of each image, such as 64,64,128; equal by default")
-      ->type_name("W,W...")
-      ->group(kFilesGroup);
+  const OptionAdder option{*command};
+  option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write")->required();
+  option("--weights", a->weights, "W,W...", kFilesGroup,
+         "Weight of each image, such as 64,64,128; equal by default");
   add_nonfinite_option(*command, a->write.nonfinite, "the sample is left out");
   add_format_options(*command, a->write, "the widest type of each channel");
   add_common(*command, a->common, "spectile film average a.exr b.exr --weights 64,128 -o mean.exr");

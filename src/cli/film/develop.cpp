@@ -43,38 +43,36 @@ Result<std::size_t> sensor_of(const Film& film, const std::optional<std::string>
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   ImageOptions options;
-  if (const int bad = apply_write_options(a.write, a.common, options)) return bad;
-  if (const auto good = check_output(a.output, {a.input}); !good) return complain(good.error());
+  apply_write_options(a.write, a.common, options);
+  take(check_output(a.output, {a.input}));
   catch_signals();
-  const auto loaded = load_film(a.input, a.common.threads);
-  if (!loaded) return complain(loaded.error());
+  const LoadedFilm loaded = take(load_film(a.input, a.common.threads));
   std::size_t sensor = 0;
   if (a.to == FilmLayer::kSensor) {
-    const auto found = sensor_of(loaded->film, a.sensor);
+    const auto found = sensor_of(loaded.film, a.sensor);
     if (!found) return complain({found.error().code, fmt::format("{}: {}", a.input, found.error().message)});
     sensor = *found;
   }
-  const auto report = write_developed(loaded->film, a.to, sensor, a.output, options);
+  const auto report = write_developed(loaded.film, a.to, sensor, a.output, options);
   if (!report) {
     const bool of_film = report.error().code == ErrorCode::kBadArgument;
     return complain(
         {of_film ? ErrorCode::kBadFile : report.error().code,
          of_film ? fmt::format("{}: {}", a.input, report.error().message) : report.error().message});
   }
-  const FilmStats stats = loaded->film.stats();
+  const FilmStats stats = loaded.film.stats();
   if (a.common.json) {
-    const nlohmann::json out = {{"input", a.input},
-                                {"output", a.output},
-                                {"to", name_of(kLayers, a.to)},
-                                {"width", report->width},
-                                {"height", report->height},
-                                {"samples", stats.accepted},
-                                {"limited_samples", report->clamped_pixels},
-                                {"bytes_written", report->bytes_written},
-                                {"seconds", report->seconds}};
-    print_json(out);
+    print_json({{"input", a.input},
+                {"output", a.output},
+                {"to", name_of(kLayers, a.to)},
+                {"width", report->width},
+                {"height", report->height},
+                {"samples", stats.accepted},
+                {"limited_samples", report->clamped_pixels},
+                {"bytes_written", report->bytes_written},
+                {"seconds", report->seconds}});
   } else if (!a.common.quiet) {
     fmt::print("{} -> {}: {} x {}, {} of {} samples, {}, {:.2f} s\n", a.input, a.output, report->width,
                report->height, name_of(kLayers, a.to), stats.accepted, size_text(report->bytes_written),
@@ -90,16 +88,11 @@ void add_film_develop(CLI::App& film, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = film.add_subcommand("develop", "Develop a partial film into an image");
   command->add_option("IN", a->input, "Partial film")->type_name("FILE")->required();
-  command->add_option("-o,--output", a->output, "Image to write")
-      ->type_name("FILE")
-      ->required()
-      ->group(kFilesGroup);
-  add_choice(*command, "--to", a->to, kLayers,
-             "srgb, xyz, luminance, sensor, spectral, weight, count or variance")
-      ->group(kColorGroup);
-  command->add_option("--sensor", a->sensor, "Sensor to develop, where the film holds several")
-      ->type_name("NAME")
-      ->group(kColorGroup);
+  const OptionAdder option{*command};
+  option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write")->required();
+  option.choice("--to", a->to, kLayers, kColorGroup,
+                "srgb, xyz, luminance, sensor, spectral, weight, count or variance");
+  option("--sensor", a->sensor, "NAME", kColorGroup, "Sensor to develop, where the film holds several");
   add_format_options(*command, a->write, "half");
   add_common(*command, a->common, "spectile film develop all.exr --to xyz --pixel float -o image.exr");
   command->callback([a, &exit] { exit = run(*a); });

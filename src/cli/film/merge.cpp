@@ -27,44 +27,40 @@ std::string identity(const std::string& path) {
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   ImageOptions options;
   options.threads = a.common.threads;
-  if (const int bad = take(Compression::parse(a.compression), options.compression)) return bad;
+  options.compression = take(Compression::parse(a.compression));
   std::set<std::string> seen;
   for (const std::string& input : a.inputs) {
     if (seen.insert(identity(input)).second) continue;
     return complain_usage(fmt::format("{} is named twice, and its samples would count twice", input));
   }
   catch_signals();
-  auto all = load_film(a.inputs[0], a.common.threads);
-  if (!all) return complain(all.error());
+  LoadedFilm all = take(load_film(a.inputs[0], a.common.threads));
   for (std::size_t i = 1; i < a.inputs.size(); ++i) {
     if (interrupted()) {
       return complain({ErrorCode::kCancelled, "interrupted; nothing was written"});
     }
-    const auto next = load_film(a.inputs[i], a.common.threads);
-    if (!next) return complain(next.error());
-    if (const auto merged = all->film.merge(next->film); !merged) {
+    const LoadedFilm next = take(load_film(a.inputs[i], a.common.threads));
+    if (const auto merged = all.film.merge(next.film); !merged) {
       return complain(
           {merged.error().code == ErrorCode::kBadArgument ? ErrorCode::kBadFile : merged.error().code,
            fmt::format("{} and {}: {}", a.inputs[0], a.inputs[i], merged.error().message)});
     }
   }
-  const auto saved = save_film(all->film, a.output, {}, options);
-  if (!saved) return complain(saved.error());
-  const FilmStats stats = all->film.stats();
+  const FilmFileReport saved = take(save_film(all.film, a.output, {}, options));
+  const FilmStats stats = all.film.stats();
   if (a.common.json) {
-    const nlohmann::json out = {{"inputs", a.inputs},
-                                {"output", a.output},
-                                {"samples", stats.accepted},
-                                {"rejected", stats.rejected.total()},
-                                {"bytes_written", saved->bytes_written},
-                                {"seconds", saved->seconds}};
-    print_json(out);
+    print_json({{"inputs", a.inputs},
+                {"output", a.output},
+                {"samples", stats.accepted},
+                {"rejected", stats.rejected.total()},
+                {"bytes_written", saved.bytes_written},
+                {"seconds", saved.seconds}});
   } else if (!a.common.quiet) {
     fmt::print("{} -> {}: {} samples, {}\n", plural(a.inputs.size(), "film"), a.output, stats.accepted,
-               size_text(saved->bytes_written));
+               size_text(saved.bytes_written));
   }
   return kOk;
 }
@@ -75,10 +71,7 @@ void add_film_merge(CLI::App& film, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = film.add_subcommand("merge", "Merge partial films; the order does not matter");
   command->add_option("IN", a->inputs, "Partial films")->type_name("FILE")->required();
-  command->add_option("-o,--output", a->output, "Partial film to write")
-      ->type_name("FILE")
-      ->required()
-      ->group(kFilesGroup);
+  OptionAdder{*command}("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
   add_film_compression_option(*command, a->compression);
   add_common(*command, a->common, "spectile film merge a.exr b.exr -o all.exr");
   command->callback([a, &exit] { exit = run(*a); });

@@ -50,37 +50,29 @@ struct Arguments {
   double every = 60;
 };
 
-int film_options(const Arguments& a, FilmOptions& o) {
+/// Throws: Stop.
+FilmOptions film_options(const Arguments& a) {
+  FilmOptions o;
   o.width = a.size[0];
   o.height = a.size[1];
   if (!a.crop.empty()) {
     const auto c = parse_integers<int>(a.crop, ',', 4);
-    if (!c) return complain_usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop), kName);
+    if (!c) throw Stop(complain_usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop), kName));
     o.crop = PixelWindow{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
   }
-  const auto filter = PixelFilter::parse(a.filter);
-  if (!filter) return complain_usage(filter.error().message, kName);
-  o.filter = *filter;
+  o.filter = take(PixelFilter::parse(a.filter), kName);
   o.placement = a.splat ? SamplePlacement::kSplat : SamplePlacement::kOnePixel;
   // Importance-sampling a filter with lobes below 0 makes weights below 0.
-  o.negative_weights = !a.splat && filter->has_negative_lobes();
+  o.negative_weights = !a.splat && o.filter.has_negative_lobes();
   o.input = a.input;
-  if (a.bands) {
-    const auto bands = find_bands(*a.bands);
-    if (!bands) return complain_usage(bands.error().message, kName);
-    o.bands = *bands;
-  }
+  if (a.bands) o.bands = take(find_bands(*a.bands), kName);
   o.spectral = a.spectral;
   o.xyz = a.observer;
-  for (const std::string& name : a.sensors) {
-    auto sensor = Sensor::named(name);
-    if (!sensor) return complain_usage(sensor.error().message, kName);
-    o.sensors.push_back({name, *std::move(sensor)});
-  }
+  for (const std::string& name : a.sensors) o.sensors.push_back({name, take(Sensor::named(name), kName)});
   o.statistics = a.statistics;
   if (a.maximum) o.maximum_component = *a.maximum;
   o.range = a.range;
-  return kOk;
+  return o;
 }
 
 /// Text in a checkpoint that identifies its run, without its progress.
@@ -123,61 +115,53 @@ Result<Run> start_or_continue(const Arguments& a, const FilmOptions& o, const st
   return Run{*std::move(film), *done};
 }
 
-/// Draws what is left, saving now and then. Returns an exit code, after saying what is wrong.
-int draw(const Arguments& a, const ProceduralScene& scene, const SceneSampling& s, const std::string& text,
-         const ImageOptions& options, Run& run) {
+/// Draws what is left, saving now and then. Throws: Stop.
+void draw(const Arguments& a, const ProceduralScene& scene, const SceneSampling& s, const std::string& text,
+          const ImageOptions& options, Run& run) {
   using Clock = std::chrono::steady_clock;
   const std::uint64_t steps = simulation_steps(run.film.options(), s);
   const auto bar = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
-  const auto save = [&]() -> Result<void> {
-    const auto saved = save_film(run.film, a.checkpoint, fmt::format("{} steps {}", text, run.done), options);
-    if (!saved) return saved.error();
-    return {};
-  };
   auto last_saved = Clock::now();
   const bool saves = !a.checkpoint.empty();
   // Between looks at the clock: some tenths of a second.
   constexpr std::uint64_t kStepsAtOnce = 64;
   while (run.done < steps) {
     const std::uint64_t count = std::min(kStepsAtOnce, steps - run.done);
-    const auto drawn = simulate(scene, s, run.film, run.done, count, {a.common.threads});
-    if (!drawn) return complain(drawn.error());
+    take(simulate(scene, s, run.film, run.done, count, {a.common.threads}));
     run.done += count;
     const bool stop = !bar({run.done, steps}) || interrupted();
     const std::chrono::duration<double> since = Clock::now() - last_saved;
     if (saves && run.done < steps && (stop || since.count() >= a.every)) {
-      if (const auto saved = save(); !saved) return complain(saved.error());
+      take(save_film(run.film, a.checkpoint, fmt::format("{} steps {}", text, run.done), options));
       last_saved = Clock::now();
     }
     if (stop && run.done < steps) {
-      return complain({ErrorCode::kCancelled,
-                       "interrupted; " + (saves ? "the checkpoint " + a.checkpoint + " has what was drawn"
-                                                : std::string("nothing was written"))});
+      throw Stop(complain({ErrorCode::kCancelled,
+                           "interrupted; " + (saves ? "the checkpoint " + a.checkpoint + " has what was drawn"
+                                                    : std::string("nothing was written"))}));
     }
   }
-  return kOk;
 }
 
 void report(const Arguments& a, const Run& run, const SceneError& error, const FilmFileReport& saved,
             double seconds, std::uint64_t continued) {
   const FilmStats stats = run.film.stats();
   if (a.common.json) {
-    const nlohmann::json out = {{"output", a.output},
-                                {"scene", a.scene},
-                                {"samples", stats.accepted},
-                                {"rejected", stats.rejected.total()},
-                                {"continued_from_step", continued},
-                                {"touched_tiles", stats.touched_tiles},
-                                {"tiles", stats.tiles},
-                                {"bytes_per_pixel", stats.bytes_per_pixel},
-                                {"mean_luminance", error.mean_luminance},
-                                {"rms_luminance_error", error.rms_luminance},
-                                {"rms_xyz_error", error.rms_xyz},
-                                {"mean_radiance", error.mean_radiance},
-                                {"rms_spectrum_error", error.rms_spectrum},
-                                {"bytes_written", saved.bytes_written},
-                                {"seconds", seconds}};
-    return print_json(out);
+    return print_json({{"output", a.output},
+                       {"scene", a.scene},
+                       {"samples", stats.accepted},
+                       {"rejected", stats.rejected.total()},
+                       {"continued_from_step", continued},
+                       {"touched_tiles", stats.touched_tiles},
+                       {"tiles", stats.tiles},
+                       {"bytes_per_pixel", stats.bytes_per_pixel},
+                       {"mean_luminance", error.mean_luminance},
+                       {"rms_luminance_error", error.rms_luminance},
+                       {"rms_xyz_error", error.rms_xyz},
+                       {"mean_radiance", error.mean_radiance},
+                       {"rms_spectrum_error", error.rms_spectrum},
+                       {"bytes_written", saved.bytes_written},
+                       {"seconds", seconds}});
   }
   if (a.common.quiet) return;
   fmt::print("{} -> {}: {} samples{}, {}, {:.1f} s\n", a.scene, a.output, stats.accepted,
@@ -191,12 +175,10 @@ void report(const Arguments& a, const Run& run, const SceneError& error, const F
 }
 
 int run(const Arguments& a) {
-  if (const int bad = apply_common(a.common)) return bad;
+  apply_common(a.common);
   const auto start = std::chrono::steady_clock::now();
-  FilmOptions o;
-  if (const int bad = film_options(a, o)) return bad;
-  const auto scene = ProceduralScene::named(a.scene);
-  if (!scene) return complain_usage(scene.error().message, kName);
+  const FilmOptions o = film_options(a);
+  const ProceduralScene scene = take(ProceduralScene::named(a.scene), kName);
   const auto shard = parse_integers<std::uint64_t>(a.shard, '/', 2);
   if (!shard || (*shard)[0] >= (*shard)[1]) {
     return complain_usage(fmt::format("--shard \"{}\" is not I/N with I from 0 to N - 1", a.shard), kName);
@@ -204,9 +186,7 @@ int run(const Arguments& a) {
   ImageOptions options;
   options.threads = a.common.threads;
   options.pixel = SampleType::kFloat;
-  const auto compression = Compression::parse(a.compression);
-  if (!compression) return complain_usage(compression.error().message, kName);
-  options.compression = *compression;
+  options.compression = take(Compression::parse(a.compression), kName);
   const SceneSampling s = {.seed = a.seed,
                            .samples_per_pixel = a.samples,
                            .shard = (*shard)[0],
@@ -215,27 +195,20 @@ int run(const Arguments& a) {
                            .density = a.sampling};
   catch_signals();
   const std::string text = run_text(a, s);
-  auto state = start_or_continue(a, o, text);
-  if (!state) {
-    if (state.error().code == ErrorCode::kBadArgument) return complain_usage(state.error().message, kName);
-    return complain(state.error());
-  }
-  const std::uint64_t continued = state->done;
-  if (const int bad = draw(a, *scene, s, text, options, *state)) return bad;
-  const auto saved = save_film(state->film, a.output, {}, options);
-  if (!saved) return complain(saved.error());
-  if (!a.reference.empty()) {
-    const auto written = write_scene(*scene, o, a.reference, options);
-    if (!written) return complain(written.error());
-  }
+  auto started = start_or_continue(a, o, text);
+  const bool usage = !started && started.error().code == ErrorCode::kBadArgument;
+  Run state = usage ? take(std::move(started), kName) : take(std::move(started));
+  const std::uint64_t continued = state.done;
+  draw(a, scene, s, text, options, state);
+  const FilmFileReport saved = take(save_film(state.film, a.output, {}, options));
+  if (!a.reference.empty()) take(write_scene(scene, o, a.reference, options));
   if (!a.checkpoint.empty()) {
     std::error_code error;  // a checkpoint that stays is of a run that is done: it does no harm
     std::filesystem::remove(a.checkpoint, error);
   }
-  const auto error = simulation_error(*scene, state->film, {a.common.threads});
-  if (!error) return complain(error.error());
+  const SceneError error = take(simulation_error(scene, state.film, {a.common.threads}));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  report(a, *state, *error, *saved, seconds.count(), continued);
+  report(a, state, error, saved, seconds.count(), continued);
   return kOk;
 }
 
@@ -245,10 +218,7 @@ void add_film_simulate(CLI::App& film, int& exit) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       film.add_subcommand("simulate", "Sample a scene whose exact values are known, into a partial film");
-  const auto option = [command](const char* flag, auto& value, const char* type, const char* group,
-                                const std::string& text) {
-    return command->add_option(flag, value, text)->type_name(type)->group(group);
-  };
+  const OptionAdder option{*command};
   option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
   option("--reference,--truth", a->reference, "FILE", kFilesGroup, "Write the exact XYZ too, as an image");
   option("--checkpoint", a->checkpoint, "FILE", kFilesGroup,
@@ -273,24 +243,21 @@ void add_film_simulate(CLI::App& film, int& exit) {
   option("--wavelengths", a->wavelengths, "N", kScene, "Wavelengths per sample, 1 to 64")
       ->check(CLI::Range(1, 64).description(""))
       ->capture_default_str();
-  add_choice(*command, "--sampling", a->sampling, kSamplings, "Density of wavelengths: visible or uniform")
-      ->group(kScene);
-  add_choice(*command, "--input", a->input, kInputs, "Samples at wavelengths, or on bands")->group(kScene);
+  option.choice("--sampling", a->sampling, kSamplings, kScene, "Density of wavelengths: visible or uniform");
+  option.choice("--input", a->input, kInputs, kScene, "Samples at wavelengths, or on bands");
 
   constexpr const char* kFilm = "Film";
   option("--bands", a->bands, "BANDS", kFilm,
          "FIRST:LAST:STEP, centres in nm, or a plan; 400:700:5 by default");
-  command->add_flag("--spectral", a->spectral, "Keep spectra on the bands too")->group(kFilm);
+  option.flag("--spectral", a->spectral, kFilm, "Keep spectra on the bands too");
   add_observer_option(*command, a->observer)->group(kFilm);
   option("--sensor", a->sensors, "NAME", kFilm,
          fmt::format("Keep a sensor: {}", fmt::join(Sensor::names(), ", ")));
   option("--filter", a->filter, "NAME[:RADIUS]", kFilm, "box, triangle, gaussian, mitchell or lanczos")
       ->capture_default_str();
-  command->add_flag("--splat", a->splat, "Splat samples by the filter; importance-sampled by default")
-      ->group(kFilm);
+  option.flag("--splat", a->splat, kFilm, "Splat samples by the filter; importance-sampled by default");
   option("--crop", a->crop, "X0,Y0,X1,Y1", kFilm, "Only these pixels");
-  add_choice(*command, "--statistics", a->statistics, kStatistics, "Per pixel: none, counts or variance")
-      ->group(kFilm);
+  option.choice("--statistics", a->statistics, kStatistics, kFilm, "Per pixel: none, counts or variance");
   option("--max-component", a->maximum, "X", kFilm, "Scale samples down to this largest component");
   option("--range", a->range, "EXPONENT", kFilm, "Largest contribution, as a power of 2")
       ->capture_default_str();

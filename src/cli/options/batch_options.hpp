@@ -18,11 +18,10 @@ struct BatchOptions {
 
 void add_batch_options(CLI::App& command, BatchOptions& options);
 
-/// Stores the region in the options. Returns an exit code; prints the error.
-int apply_region(const BatchOptions& options, ImageOptions& out);
+/// The region, if one is given. Throws: Stop.
+std::optional<PixelWindow> region_of(const BatchOptions& options);
 
-/// Stores the shard that --shard names, or the task's in a Slurm job array; none for all inputs. Returns an
-/// exit code; prints the error.
-int take_shard(const BatchOptions& options, std::optional<Shard>& out);
+/// The shard that --shard names, or the task's in a Slurm job array; none for all inputs. Throws: Stop.
+std::optional<Shard> shard_of(const BatchOptions& options);
 
 }  // namespace spectile::cli

@@ -1,4 +1,4 @@
-// Options whose value is one of a few names.
+// Adding options to a command, those among them whose value is one of a few names.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -44,19 +44,35 @@ std::string list_of(const Choice<T> (&choices)[kCount]) {
   return out + "}";
 }
 
-/// Adds an option that sets `target`, a T or an optional one. `choices` must outlive the command. The help
-/// shows the value that a T has now.
-template <class Target, class T, std::size_t kCount>
-CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& target,
-                        const Choice<T> (&choices)[kCount], const std::string& text) {
-  CLI::Option* const option = command.add_option_function<std::string>(
-      flag, [&target, &choices](const std::string& name) { target = find_choice(choices, name)->value; },
-      text);
-  option->type_name("NAME")->check([&choices](const std::string& name) {
-    return find_choice(choices, name) != nullptr ? std::string() : name + " not in " + list_of(choices);
-  });
-  if constexpr (std::is_same_v<Target, T>) option->default_str(name_of(choices, target));
-  return option;
-}
+/// Adds options to a command, each in a group of its help.
+struct OptionAdder {
+  CLI::App& command;
+
+  /// An option whose value the help calls `type`.
+  template <class Target>
+  CLI::Option* operator()(const std::string& flag, Target& target, const char* type, const char* group,
+                          const std::string& text) const {
+    return command.add_option(flag, target, text)->type_name(type)->group(group);
+  }
+
+  CLI::Option* flag(const std::string& name, bool& target, const char* group, const std::string& text) const {
+    return command.add_flag(name, target, text)->group(group);
+  }
+
+  /// An option that sets `target`, a T or an optional one. `choices` must outlive the command. The help shows
+  /// the value that a T has now.
+  template <class Target, class T, std::size_t kCount>
+  CLI::Option* choice(const std::string& flag, Target& target, const Choice<T> (&choices)[kCount],
+                      const char* group, const std::string& text) const {
+    CLI::Option* const option = command.add_option_function<std::string>(
+        flag, [&target, &choices](const std::string& name) { target = find_choice(choices, name)->value; },
+        text);
+    option->type_name("NAME")->check([&choices](const std::string& name) {
+      return find_choice(choices, name) != nullptr ? std::string() : name + " not in " + list_of(choices);
+    });
+    if constexpr (std::is_same_v<Target, T>) option->default_str(name_of(choices, target));
+    return option->group(group);
+  }
+};
 
 }  // namespace spectile::cli

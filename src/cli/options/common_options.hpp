@@ -42,8 +42,8 @@ struct Common {
 /// Adds the options of every subcommand and the example that ends its help.
 void add_common(CLI::App& command, Common& common, const std::string& example);
 
-/// Puts the common options in force. Returns an exit code; prints the error.
-int apply_common(const Common& common);
+/// Puts the common options in force. Throws: Stop.
+void apply_common(const Common& common);
 
 /// Options of what is written.
 struct WriteOptions {
@@ -64,8 +64,8 @@ void add_layout_options(CLI::App& command, WriteOptions& options);
 /// Adds --compression of films.
 void add_film_compression_option(CLI::App& command, std::string& compression);
 
-/// Fills `out`. Returns an exit code; prints the error.
-int apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
+/// Fills `out`. Throws: Stop.
+void apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
 
 /// Adds an option of a standard observer.
 CLI::Option* add_observer_option(CLI::App& command, Observer& observer, const char* flag = "--observer");

@@ -20,69 +20,55 @@ constexpr Choice<GamutPolicy> kGamutPolicies[] = {{"clip", GamutPolicy::kClip},
 }  // namespace
 
 void add_method_option(CLI::App& command, std::string& method) {
-  command
-      .add_option("--method", method, "smits-exact, sigmoid, mallett, smits or smits1999 (docs/methods.md)")
-      ->type_name("NAME")
+  OptionAdder{command}("--method", method, "NAME", kColorGroup,
+                       "smits-exact, sigmoid, mallett, smits or smits1999 (docs/methods.md)")
       ->check(CLI::IsMember(method_names()).description(""))
-      ->capture_default_str()
-      ->group(kColorGroup);
+      ->capture_default_str();
 }
 
 void add_rgb_input_options(CLI::App& command, std::string& input_space, std::string& layer) {
-  std::string names;
-  for (const std::string& name : rgb_space_names()) names += (names.empty() ? "" : ", ") + name;
-  command.add_option("--input-space", input_space, names)
-      ->type_name("NAME")
-      ->check(CLI::IsMember(rgb_space_names(), CLI::ignore_case).description(""))
-      ->group(kColorGroup);
-  command.add_option("--layer", layer, "Layer, view or part to take R, G, B from")
-      ->type_name("NAME")
-      ->group(kFilesGroup);
+  const OptionAdder option{command};
+  option("--input-space", input_space, "NAME", kColorGroup, CLI::detail::join(rgb_space_names(), ", "))
+      ->check(CLI::IsMember(rgb_space_names(), CLI::ignore_case).description(""));
+  option("--layer", layer, "NAME", kFilesGroup, "Layer, view or part to take R, G, B from");
 }
 
-int take_space(const std::string& name, std::optional<RgbSpace>& out) {
-  return name.empty() ? kOk : take(rgb_space(name), out);
+std::optional<RgbSpace> space_of(const std::string& name) {
+  return name.empty() ? std::nullopt : std::optional(take(rgb_space(name)));
 }
 
 void add_method_options(CLI::App& command, MethodArguments& a) {
   add_method_option(command, a.method);
-  add_choice(command, "--quantity", a.quantity, kQuantities,
-             "reflectance, unbounded (of any scale) or illuminant (emission)")
-      ->group(kColorGroup);
-  command
-      .add_option("--white", a.white,
-                  "Reference white: RGB 1,1,1 is the perfect diffuser under it; D65 by default")
-      ->type_name("SPECTRUM")
-      ->group(kColorGroup);
+  const OptionAdder option{command};
+  option.choice("--quantity", a.quantity, kQuantities, kColorGroup,
+                "reflectance, unbounded (of any scale) or illuminant (emission)");
+  option("--white", a.white, "SPECTRUM", kColorGroup,
+         "Reference white: RGB 1,1,1 is the perfect diffuser under it; D65 by default");
   add_observer_option(command, a.white_observer, "--white-observer");
   add_rgb_input_options(command, a.input_space, a.layer);
-  add_choice(command, "--negative", a.negative, kNegatives,
-             "Components below 0: gamut (as colours out of gamut), clip, keep or error")
-      ->group(kColorGroup);
-  add_choice(command, "--out-of-gamut", a.out_of_gamut, kGamutPolicies,
-             "Colours the method cannot make: clip, keep or error; clip by default")
-      ->group(kColorGroup);
-  command.add_option("--bands", a.bands, "FIRST:LAST:STEP or a list of centres in nm, or a plan (plan.json)")
-      ->type_name("BANDS")
-      ->capture_default_str()
-      ->group(kBandsGroup);
+  option.choice("--negative", a.negative, kNegatives, kColorGroup,
+                "Components below 0: gamut (as colours out of gamut), clip, keep or error");
+  option.choice("--out-of-gamut", a.out_of_gamut, kGamutPolicies, kColorGroup,
+                "Colours the method cannot make: clip, keep or error; clip by default");
+  option("--bands", a.bands, "BANDS", kBandsGroup,
+         "FIRST:LAST:STEP or a list of centres in nm, or a plan (plan.json)")
+      ->capture_default_str();
 }
 
-int apply_method_options(const MethodArguments& a, MethodOptions& out) {
-  if (const int bad = take(parse_method(a.method), out.method)) return bad;
+void apply_method_options(const MethodArguments& a, MethodOptions& out) {
+  out.method = take(parse_method(a.method));
   out.quantity = a.quantity;
-  if (const int bad = take(find_bands(a.bands), out.bands)) return bad;
+  out.bands = take(find_bands(a.bands));
   // D65 by name is the default.
   if (!a.white.empty()) {
-    if (const int bad = take(find_light(a.white), out.light)) return bad;
+    out.light = take(find_light(a.white));
     if (CLI::detail::to_lower(a.white) == "d65") out.light.reset();
   }
   out.observer = a.white_observer;
-  if (const int bad = take_space(a.input_space, out.input_space)) return bad;
+  out.input_space = space_of(a.input_space);
   out.negative = a.negative;
   out.out_of_gamut = a.out_of_gamut;
   out.layer = a.layer;
-  return kOk;
 }
 
 }  // namespace spectile::cli

@@ -25,10 +25,10 @@ void add_method_options(CLI::App& command, MethodArguments& a);
 // Parts of them, for other commands that read RGB images.
 void add_method_option(CLI::App& command, std::string& method);
 void add_rgb_input_options(CLI::App& command, std::string& input_space, std::string& layer);
-/// Stores the RGB space of that name; nothing for an empty name. Returns an exit code; prints the error.
-int take_space(const std::string& name, std::optional<RgbSpace>& out);
+/// The RGB space of that name; none for an empty name. Throws: Stop.
+std::optional<RgbSpace> space_of(const std::string& name);
 
-/// Fills `out`. Returns an exit code; prints the error.
-int apply_method_options(const MethodArguments& a, MethodOptions& out);
+/// Fills `out`. Throws: Stop.
+void apply_method_options(const MethodArguments& a, MethodOptions& out);
 
 }  // namespace spectile::cli

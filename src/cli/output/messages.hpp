@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <spectile/result.hpp>
 #include <string>
+#include <type_traits>
 
 namespace spectile::cli {
 
@@ -24,12 +26,23 @@ int complain_usage(const std::string& message, const std::string& command = {});
 /// Prints one line to stderr for a file that cannot be written. `error` is an errno.
 int complain_write(const std::string& path, int error);
 
-/// Stores the value of a result in `out`. Returns an exit code; prints the error.
-template <class T, class U>
-int take(Result<T> result, U& out) {
-  if (!result) return complain(result.error());
-  out = *std::move(result);
-  return kOk;
+/// Ends the command with an exit code; the error has been printed.
+struct Stop : std::exception {
+  explicit Stop(int code) : exit(code) {}
+  int exit;
+};
+
+/// The value of a result. Prints the error of one that has none, and throws Stop.
+template <class T>
+T take(Result<T> result) {
+  if (!result) throw Stop(complain(result.error()));
+  if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+/// The same, where any error is wrong usage of the command.
+template <class T>
+T take(Result<T> result, const std::string& command) {
+  if (!result) throw Stop(complain_usage(result.error().message, command));
+  return *std::move(result);
 }
 
 /// One line of JSON. Bytes that are not UTF-8 are replaced.
