@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <spectile/bench/benchmark.hpp>
 #include <system_error>
 
@@ -244,8 +243,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_bench(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("bench", "Measure limits, throughput and error on this machine");
+  const auto [command, a] =
+      add_subcommand(app, "bench", "Measure limits, throughput and error on this machine", run, exit);
   const OptionAdder option{*command};
   option("--report", a->report, "FILE", kFilesGroup, "Write the report as one page of HTML, with its plots");
   option("--plot", a->plot, "FILE", kFilesGroup, "Write one plot as SVG: error against time of film samples");
@@ -277,7 +276,6 @@ void add_bench(CLI::App& app, int& exit) {
       "Example:\n  spectile bench --quick --report bench.html\n"
       "Takes minutes. The report says where other work disturbed it (docs/performance.md).\n"
       "Exit code 1: a result is beyond its stated bound.");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
@@ -144,14 +143,13 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_demo(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "demo", "Make a chart, upsample it, project it back; print error and speed of each step");
+  const auto [command, a] = add_subcommand(
+      app, "demo", "Make a chart, upsample it, project it back; print error and speed of each step", run,
+      exit);
   command->add_option("DIR", a->directory, "Folder for the three images")
       ->type_name("")
       ->capture_default_str();
   add_common(*command, a->common, "spectile demo /tmp/demo");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -1,5 +1,4 @@
 // spectile expand: images of coefficients to spectral ones.
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"
@@ -23,14 +22,12 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_expand(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "expand", "Turn coefficient images (upsample --store coefficients) into spectral ones");
+  const auto [command, a] = add_subcommand(
+      app, "expand", "Turn coefficient images (upsample --store coefficients) into spectral ones", run, exit);
   a->image.add_files(*command, "OpenEXR images with channels spectile.c0, c1, c2");
   OptionAdder{*command}("--bands", a->bands, "BANDS", kBandsGroup,
                         "FIRST:LAST:STEP, centres in nm, or a plan; the image's own by default");
   a->image.add_options(*command, "half", "spectile expand wood-c.exr -o wood-s.exr --bands 380:780:5");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -130,13 +129,12 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_info(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("info", "Print image metadata, and a pixel's spectrum");
+  const auto [command, a] =
+      add_subcommand(app, "info", "Print image metadata, and a pixel's spectrum", run, exit);
   command->add_option("FILE", a->input, "Any flat OpenEXR image")->type_name("")->required();
   OptionAdder{*command}("--pixel", a->pixel, "X,Y", kFilesGroup,
                         "Show this pixel, counted from the data window's upper left corner");
   add_common(*command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

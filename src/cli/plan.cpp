@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -192,9 +191,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_plan(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("plan", "Choose the few wavelengths or bands that a scene's colours need");
+  const auto [command, a] = add_subcommand(
+      app, "plan", "Choose the few wavelengths or bands that a scene's colours need", run, exit);
   const OptionAdder option{*command};
   option("-o,--output", a->output, "FILE", kFilesGroup, "Plan to write, as JSON")->required();
   option("--reflectances", a->reflectances, "FILE", kFilesGroup,
@@ -227,7 +225,6 @@ void add_plan(CLI::App& app, int& exit) {
       std::string(
           "spectile plan --illuminant D65 --texture wood.exr --bands 7 --sample bands -o plan.json\n") +
           kSpectrumHelp);
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

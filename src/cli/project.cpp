@@ -1,5 +1,4 @@
 // spectile project: spectral images to colour.
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"
@@ -35,8 +34,7 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_project(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("project", "Turn spectral images into colour");
+  const auto [command, a] = add_subcommand(app, "project", "Turn spectral images into colour", run, exit);
   a->image.add_files(*command, "Spectral OpenEXR images (channels T.*nm or S0.*nm)");
   const OptionAdder option{*command};
   option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
@@ -49,7 +47,6 @@ void add_project(CLI::App& app, int& exit) {
       *command, "float",
       std::string("spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n") +
           kSpectrumHelp);
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

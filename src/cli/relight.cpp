@@ -1,5 +1,4 @@
 // spectile relight: textures under another illuminant.
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"
@@ -38,9 +37,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_relight(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("relight", "Show textures under another illuminant, without spectral images");
+  const auto [command, a] = add_subcommand(
+      app, "relight", "Show textures under another illuminant, without spectral images", run, exit);
   a->image.add_files(*command, "RGB OpenEXR images");
   const OptionAdder option{*command};
   option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup, "Illuminant to show them under")->required();
@@ -53,7 +51,6 @@ void add_relight(CLI::App& app, int& exit) {
       *command, "half",
       std::string("spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n") +
           kSpectrumHelp);
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -1,5 +1,4 @@
 // spectile upsample: RGB images to spectral ones.
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"
@@ -35,8 +34,7 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_upsample(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("upsample", "Turn RGB images into spectral ones");
+  const auto [command, a] = add_subcommand(app, "upsample", "Turn RGB images into spectral ones", run, exit);
   a->image.add_files(*command, "RGB OpenEXR images: half, float or uint, scanline or tiled");
   add_method_options(*command, a->method);
   const OptionAdder option{*command};
@@ -51,7 +49,6 @@ void add_upsample(CLI::App& app, int& exit) {
   option.flag("--no-skip", a->no_skip, kRunGroup,
               "Compute black, constant and repeated parts too; same bytes");
   option.flag("--stats", a->image.common.stats, kRunGroup, "Print what was skipped");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/method_options.hpp"
@@ -55,13 +54,11 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_verify(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("verify", "Compare kernels, scalar reference and double oracle on every pixel");
+  const auto [command, a] = add_subcommand(
+      app, "verify", "Compare kernels, scalar reference and double oracle on every pixel", run, exit);
   command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->type_name("FILE")->required();
   add_method_options(*command, a->method);
   add_common(*command, a->common, std::string("spectile verify wood.exr --method sigmoid\n") + kSpectrumHelp);
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -16,8 +16,7 @@ Result<WorkingSpace> working_space(const Bands& bands, bool emission, const Chro
   WorkingSpace out;
   out.white.assign(bands.count(), 1.0);
   if (emission) {
-    SPECTILE_ASSIGN(auto white, light_samples(light, bands));
-    out.white = std::move(white);
+    SPECTILE_ASSIGN(out.white, light_samples(light, bands));
     double luminance = 0;
     for (std::size_t b = 0; b < bands.count(); ++b) luminance += out.white[b] * xyz_weights[b][1];
     if (!(luminance > 0)) {

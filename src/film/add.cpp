@@ -221,9 +221,7 @@ Result<void> add_batch(State& s, const Batch& batch, std::size_t n, const Execut
     const std::scoped_lock first(mutex);
     if (result) result = done;
   });
-  if (result && s.overflown) {
-    return film_overflow(s);
-  }
+  if (result && s.overflown) return film_overflow(s);
   return result;
 }
 

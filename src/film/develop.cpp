@@ -98,9 +98,7 @@ Result<DevelopStats> FilmDevelopment::update(const Execution& execution) {
       }
     }
   });
-  if (s.overflown) {
-    return film_overflow(s);
-  }
+  if (s.overflown) return film_overflow(s);
   return DevelopStats{developed, unchanged, untouched};
 }
 

@@ -72,7 +72,8 @@ std::string bands_text(const FilmOptions& o) {
   return o.spectral || o.input == FilmInput::kBands ? o.bands.description() : "none";
 }
 
-std::string differ(const char* what, const std::string& a, const std::string& b) {
+template <class Value>
+std::string differ(const char* what, const Value& a, const Value& b) {
   return fmt::format("{}: {} and {}", what, a, b);
 }
 
@@ -124,19 +125,17 @@ std::optional<std::string> film_difference(const FilmAccess::State& a, const Fil
     const auto text = [](FilmInput i) { return i == FilmInput::kBands ? "bands" : "wavelengths"; };
     return differ("input", text(p.input), text(q.input));
   }
-  if (p.spectral != q.spectral) {
-    return differ("spectrum", p.spectral ? "kept" : "not kept", q.spectral ? "kept" : "not kept");
-  }
+  const auto kept = [](bool is_kept) { return is_kept ? "kept" : "not kept"; };
+  if (p.spectral != q.spectral) return differ("spectrum", kept(p.spectral), kept(q.spectral));
   if ((p.spectral || p.input == FilmInput::kBands) && !(p.bands == q.bands)) {
     const bool same_text = bands_text(p) == bands_text(q);
     return differ("bands", bands_text(p), bands_text(q) + (same_text ? " (other edges)" : ""));
   }
   if (a.responses.size() != b.responses.size()) {
-    return differ("number of sensors", fmt::to_string(a.responses.size()),
-                  fmt::to_string(b.responses.size()));
+    return differ("number of sensors", a.responses.size(), b.responses.size());
   }
   if (p.xyz.has_value() != q.xyz.has_value()) {
-    return differ("XYZ", p.xyz ? "kept" : "not kept", q.xyz ? "kept" : "not kept");
+    return differ("XYZ", kept(p.xyz.has_value()), kept(q.xyz.has_value()));
   }
   for (std::size_t i = 0; i < a.responses.size(); ++i) {
     const FilmResponse& r = a.responses[i];
@@ -160,8 +159,7 @@ std::optional<std::string> film_difference(const FilmAccess::State& a, const Fil
                   fmt::format("2^{}", q.weight_range));
   }
   if (p.maximum_component != q.maximum_component) {
-    return differ("maximum component", fmt::to_string(p.maximum_component),
-                  fmt::to_string(q.maximum_component));
+    return differ("maximum component", p.maximum_component, q.maximum_component);
   }
   if (p.negative_weights != q.negative_weights) {
     return differ("negative weights", p.negative_weights ? "kept" : "refused",

@@ -124,8 +124,6 @@ struct Film::State {
   std::int64_t* touch(std::size_t tile) noexcept;
   /// Normalizes the carries, so that equal sums have equal limbs; its mutex held.
   void normalize_carries(std::size_t tile) noexcept;
-  /// log2 of a limb's step, of contributions and of weights, coarse and rest.
-  double coarse_step(int range) const noexcept;
 };
 
 /// Access to a film's state for the operations on films.

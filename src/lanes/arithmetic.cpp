@@ -30,20 +30,20 @@ Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const
   return {};
 }
 
-using Binary = void (*KernelTable::*)(float*, const float*, const float*, std::size_t) noexcept;
-using Unary = void (*KernelTable::*)(float*, const float*, std::size_t) noexcept;
-
-Result<void> binary(Binary which, const SampledSpectraView& a, const SampledSpectraView& b,
-                    const SampledSpectraSpan& out, const Execution& execution) {
-  return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    (k.*which)(out.data + at, a.data + at, b.data + at, n);
+/// Runs a kernel of one batch, and below of two, with the numbers that it takes besides.
+template <class Kernel, class... Numbers>
+Result<void> unary(Kernel which, const SampledSpectraView& a, const SampledSpectraSpan& out,
+                   const Execution& execution, Numbers... numbers) {
+  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+    (k.*which)(out.data + at, a.data + at, numbers..., n);
   });
 }
 
-Result<void> unary(Unary which, const SampledSpectraView& a, const SampledSpectraSpan& out,
-                   const Execution& execution) {
-  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    (k.*which)(out.data + at, a.data + at, n);
+template <class Kernel, class... Numbers>
+Result<void> binary(Kernel which, const SampledSpectraView& a, const SampledSpectraView& b,
+                    const SampledSpectraSpan& out, const Execution& execution, Numbers... numbers) {
+  return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
+    (k.*which)(out.data + at, a.data + at, b.data + at, numbers..., n);
   });
 }
 
@@ -62,15 +62,16 @@ Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const E
   return {};
 }
 
-/// Runs kernel(table, words, first block, blocks) for a mask over `lanes`, and clears the padding's bits.
+/// Runs kernel(table, words, offset, blocks) for a mask over the lanes of `a`, and clears the padding's bits.
 template <class Kernel>
-Result<LaneMask> compute_mask(std::size_t lanes, const Execution& execution, Kernel kernel) {
+Result<LaneMask> compute_mask(const SampledSpectraView& a, const Execution& execution, Kernel kernel) {
+  SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  LaneMask mask(blocks_for(lanes));
+  LaneMask mask(a.blocks());
   tiles::for_blocks(mask.size(), execution, [&](std::size_t first, std::size_t count) {
-    kernel(*table, mask.data() + first, first, count);
+    kernel(*table, mask.data() + first, first * a.bands.count() * kLanesPerBlock, count);
   });
-  if (const std::size_t rest = lanes % kLanesPerBlock; rest != 0)
+  if (const std::size_t rest = a.lanes % kLanesPerBlock; rest != 0)
     mask.back() &= (std::uint64_t{1} << rest) - 1;
   return mask;
 }
@@ -107,9 +108,7 @@ Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Executio
 }
 
 Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, const Execution& execution) {
-  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    k.scale(out.data + at, a.data + at, factor, n);
-  });
+  return unary(&KernelTable::scale, a, out, execution, factor);
 }
 
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
@@ -121,9 +120,7 @@ Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpe
 
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
                   const Execution& execution) {
-  return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    k.lerp(out.data + at, a.data + at, b.data + at, t, n);
-  });
+  return binary(&KernelTable::lerp, a, b, out, execution, t);
 }
 
 Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
@@ -135,9 +132,7 @@ Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& 
 }
 
 Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& execution) {
-  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    k.pow(out.data + at, a.data + at, exponent, n);
-  });
+  return unary(&KernelTable::pow, a, out, execution, exponent);
 }
 
 Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpectraSpan out,
@@ -145,9 +140,7 @@ Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpe
   if (!(lowest <= highest)) {
     return make_error(ErrorCode::kBadArgument, "cannot limit samples to between {} and {}", lowest, highest);
   }
-  return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    k.clamp(out.data + at, a.data + at, lowest, highest, n);
-  });
+  return unary(&KernelTable::clamp, a, out, execution, lowest, highest);
 }
 
 Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
@@ -180,32 +173,25 @@ Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execu
 }
 
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution) {
-  SPECTILE_TRY(shape::aligned(a.data));
-  const std::size_t bands = a.bands.count();
-  return compute_mask(a.lanes, execution,
-                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                        k.black_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+  return compute_mask(a, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
+                        k.black_mask(mask, a.data + at, a.bands.count(), count);
                       });
 }
 
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution) {
-  SPECTILE_TRY(shape::aligned(a.data));
-  const std::size_t bands = a.bands.count();
-  return compute_mask(a.lanes, execution,
-                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                        k.nan_mask(mask, a.data + first * bands * kLanesPerBlock, bands, count);
+  return compute_mask(a, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
+                        k.nan_mask(mask, a.data + at, a.bands.count(), count);
                       });
 }
 
 Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution) {
   SPECTILE_TRY(shape::same(a, b));
-  SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(b.data));
-  const std::size_t bands = a.bands.count();
-  return compute_mask(a.lanes, execution,
-                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t first, std::size_t count) {
-                        const std::size_t at = first * bands * kLanesPerBlock;
-                        k.equal_mask(mask, a.data + at, b.data + at, bands, count);
+  return compute_mask(a, execution,
+                      [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
+                        k.equal_mask(mask, a.data + at, b.data + at, a.bands.count(), count);
                       });
 }
 

@@ -39,13 +39,12 @@ Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t
                       bands.count());
   }
   const std::size_t blocks = blocks_for(lanes);
-  SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(blocks * bands.count() * kLanesPerBlock));
-  float* out = buffer.data();
+  SampledSpectra spectra;
+  SPECTILE_ASSIGN(spectra.buffer_, FloatBuffer::create(blocks * bands.count() * kLanesPerBlock));
+  float* out = spectra.buffer_.data();
   for (std::size_t block = 0; block < blocks; ++block) {
     for (const float value : values) out = std::fill_n(out, kLanesPerBlock, value);
   }
-  SampledSpectra spectra;
-  spectra.buffer_ = std::move(buffer);
   spectra.lanes_ = lanes;
   spectra.bands_ = bands;
   return spectra;
@@ -53,9 +52,8 @@ Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t
 
 Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
   if (too_many(lanes, 1)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
-  SPECTILE_ASSIGN(auto buffer, zeroed(blocks_for(lanes) * kLanesPerBlock));
   ScalarLanes out;
-  out.buffer_ = std::move(buffer);
+  SPECTILE_ASSIGN(out.buffer_, zeroed(blocks_for(lanes) * kLanesPerBlock));
   out.lanes_ = lanes;
   return out;
 }
@@ -63,9 +61,8 @@ Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
 Result<ColorLanes> ColorLanes::create(std::size_t lanes) {
   if (too_many(lanes, 3)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
   const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
-  SPECTILE_ASSIGN(auto buffer, zeroed(3 * stride));
   ColorLanes out;
-  out.buffer_ = std::move(buffer);
+  SPECTILE_ASSIGN(out.buffer_, zeroed(3 * stride));
   out.lanes_ = lanes;
   out.stride_ = stride;
   return out;

@@ -52,11 +52,9 @@ Result<Knots> make_knots(const MeasuredSpectrum& spectrum, bool held) {
   std::vector<float> knots;
   knots.reserve(n);
   for (const double nm : w) knots.push_back(static_cast<float>(nm));
-  SPECTILE_ASSIGN(auto index, index_knots(knots));
-  SPECTILE_ASSIGN(auto pairs, FloatBuffer::create(2 * n));
   Knots out;
-  out.index = std::move(index);
-  out.pairs = std::move(pairs);
+  SPECTILE_ASSIGN(out.index, index_knots(knots));
+  SPECTILE_ASSIGN(out.pairs, FloatBuffer::create(2 * n));
   for (std::size_t i = 0; i < n; ++i) {
     // Between the knots as they are in float: two that became one are a step.
     const double length = i + 1 < n ? static_cast<double>(knots[i + 1]) - static_cast<double>(knots[i]) : 0;
@@ -82,9 +80,8 @@ struct Even {
 
 Result<Even> make_even_table(const DenselySampledSpectrum& spectrum) {
   const auto v = spectrum.values();
-  SPECTILE_ASSIGN(auto pairs, FloatBuffer::create(2 * (v.size() - 1)));
   Even out;
-  out.pairs = std::move(pairs);
+  SPECTILE_ASSIGN(out.pairs, FloatBuffer::create(2 * (v.size() - 1)));
   for (std::size_t i = 0; i + 1 < v.size(); ++i) {
     if (!fits_float(v[i]) || !fits_float(v[i + 1]) || !fits_float(v[i + 1] - v[i])) {
       return make_error(ErrorCode::kBadArgument, "the sample {} at {} nm is beyond the range of float", v[i],

@@ -42,9 +42,8 @@ Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t c
     return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} wavelengths do not fit in memory", lanes,
                       count);
   }
-  SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(std::max<std::size_t>(1, stride * count)));
   WavelengthLanes out;
-  out.buffer_ = std::move(buffer);
+  SPECTILE_ASSIGN(out.buffer_, FloatBuffer::create(std::max<std::size_t>(1, stride * count)));
   std::fill_n(out.buffer_.data(), out.buffer_.size(), 0.0F);
   out.lanes_ = lanes;
   out.count_ = count;

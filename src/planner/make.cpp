@@ -56,12 +56,6 @@ Result<void> check(const PlannerOptions& o) {
   return {};
 }
 
-Matrix columns(const Matrix& table, const std::vector<Eigen::Index>& which) {
-  Matrix out(table.rows(), static_cast<Eigen::Index>(which.size()));
-  for (std::size_t i = 0; i < which.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = table.col(which[i]);
-  return out;
-}
-
 /// Initial guesses of an exchange: the greedy one, and others spread evenly.
 constexpr int kExchanges = 2;
 /// With one light fits are quick: so many more initial guesses near each, every wavelength within this
@@ -135,10 +129,10 @@ HeldOutErrors cross_validate(const Matrix& table, const PlannerOptions& o,
     std::vector<Eigen::Index> evaluate;
     // Neighbours in a file are often alike: they go to different folds.
     for (Eigen::Index i = 0; i < table.cols(); ++i) (i % o.folds == fold ? evaluate : fit).push_back(i);
-    const Parameters parameters = fitted(columns(table, fit), o, integrals, count);
+    const Parameters parameters = fitted(table(Eigen::all, fit), o, integrals, count);
     for (int b = 1; b <= o.bounces; ++b) {
       const auto most = std::max<std::size_t>(1, kEvaluationProducts / static_cast<std::size_t>(o.folds));
-      const SampleSet samples = evaluation_samples(columns(table, evaluate), b, most);
+      const SampleSet samples = evaluation_samples(table(Eigen::all, evaluate), b, most);
       for (std::size_t l = 0; l < integrals.size(); ++l) {
         const auto d = plan::differences(plan::reference_xyz(samples, integrals[l]),
                                          plan::predict(samples, parameters, static_cast<Eigen::Index>(l)),

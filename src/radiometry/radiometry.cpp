@@ -25,10 +25,8 @@ struct Range {
   double first_nm = kFirstVisibleNm;
   double last_nm = kLastVisibleNm;
 };
-Range radiation_range(const ConstantSpectrum& /*spectrum*/) {
-  return {};
-}
-Range radiation_range(const UpsampledSpectrum& /*spectrum*/) {
+template <class Kind>
+Range radiation_range(const Kind& /*spectrum*/) {
   return {};
 }
 Range radiation_range(const BlackbodySpectrum& /*spectrum*/) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <spectile/spectra/named_spectra.hpp>
 
@@ -21,6 +22,11 @@ struct Entry {
   double step_nm = 0;
   std::span<const double> values;
 };
+
+/// Of a table with even steps.
+Entry even(NamedSpectrumInfo info, double first_nm, double step_nm, std::span<const double> values) {
+  return {std::move(info), {}, first_nm, step_nm, values};
+}
 
 struct Description {
   const char* name;
@@ -82,12 +88,9 @@ void add_observer(std::vector<Entry>& out, const data::MatchingFunctions& f, con
   const std::array bars = {f.x_bar, f.y_bar, f.z_bar};
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const char letter = static_cast<char>('x' + i);
-    out.push_back({{fmt::format("{}-{}", name, letter), "observer",
-                    fmt::format("colour matching function {} of the {}", letter, about), kCie, ""},
-                   {},
-                   f.first_nm,
-                   f.step_nm,
-                   bars[i]});
+    out.push_back(even({fmt::format("{}-{}", name, letter), "observer",
+                        fmt::format("colour matching function {} of the {}", letter, about), kCie, ""},
+                       f.first_nm, f.step_nm, bars[i]));
   }
 }
 
@@ -97,29 +100,23 @@ std::vector<Entry> make_entries() {
     const auto* const d = std::ranges::find_if(
         kIlluminants, [&](const Description& known) { return std::string_view(known.name) == t.name; });
     const char* const about = d == std::end(kIlluminants) ? "CIE illuminant" : d->about;
-    out.push_back({{t.name, "illuminant", about, kCie, ""}, {}, t.first_nm, t.step_nm, t.values});
+    out.push_back(even({t.name, "illuminant", about, kCie, ""}, t.first_nm, t.step_nm, t.values));
   }
   add_optical_constants(out, false);
   add_optical_constants(out, true);
   for (const data::NamedTable& t : data::canon_eos_5d_mkii()) {
     const char* const color = *t.name == 'r' ? "red" : *t.name == 'g' ? "green" : "blue";
-    out.push_back({{fmt::format("canon-eos-5d-mkii-{}", t.name), "camera response",
-                    fmt::format("Canon EOS 5D Mark II, {}", color), kPbrt, ""},
-                   {},
-                   t.first_nm,
-                   t.step_nm,
-                   t.values});
+    out.push_back(even({fmt::format("canon-eos-5d-mkii-{}", t.name), "camera response",
+                        fmt::format("Canon EOS 5D Mark II, {}", color), kPbrt, ""},
+                       t.first_nm, t.step_nm, t.values));
   }
   add_observer(out, data::kCie1931, "cie1931", "2 degree observer");
   add_observer(out, data::kCie1964, "cie1964", "10 degree observer");
   int number = 1;
   for (const data::NamedTable& t : data::colorchecker()) {
-    out.push_back({{"colorchecker-" + patch_name(t.name), "reflectance",
-                    fmt::format("ColorChecker, patch {}, {}", number++, t.name), "BabelColor", ""},
-                   {},
-                   t.first_nm,
-                   t.step_nm,
-                   t.values});
+    out.push_back(even({"colorchecker-" + patch_name(t.name), "reflectance",
+                        fmt::format("ColorChecker, patch {}, {}", number++, t.name), "BabelColor", ""},
+                       t.first_nm, t.step_nm, t.values));
   }
   return out;
 }
@@ -152,7 +149,7 @@ Result<Spectrum> named_table(const Entry& e) {
 /// How many letters must be put in, taken out or exchanged to make `b` of `a`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = row[0];
     row[0] = i + 1;

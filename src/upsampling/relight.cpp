@@ -33,8 +33,7 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
   out.projector_ = &under;
   out.matrix_ = to;
   if (!rows::mixes_bases(upsampler)) return out;
-  SPECTILE_ASSIGN(auto table, FloatBuffer::create(3 * kSmitsRow));
-  out.table_ = std::move(table);
+  SPECTILE_ASSIGN(out.table_, FloatBuffer::create(3 * kSmitsRow));
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
   const auto weights = under.weights();
   const auto basis = upsampler.basis();

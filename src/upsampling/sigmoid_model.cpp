@@ -215,9 +215,8 @@ Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, co
   const std::size_t nodes = 3 * kCells;
   const auto padded = [](std::size_t floats) { return (floats + 15) / 16 * 16; };
   const std::size_t sizes[3] = {padded(nodes * kSigmoidNode), padded(n * kSigmoidRow), padded(4 * n)};
-  SPECTILE_ASSIGN(auto memory, FloatBuffer::create(sizes[0] + sizes[1] + sizes[2]));
   auto model = std::make_shared<SigmoidModel>();
-  model->memory = std::move(memory);
+  SPECTILE_ASSIGN(model->memory, FloatBuffer::create(sizes[0] + sizes[1] + sizes[2]));
   std::fill_n(model->memory.data(), model->memory.size(), 0.0F);
   float* const node = model->memory.data();
   float* const rows = node + sizes[0];

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -72,8 +71,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_film_average(CLI::App& film, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = film.add_subcommand("average", "Average renders of one frame exactly, in any order");
+  const auto [command, a] =
+      add_subcommand(film, "average", "Average renders of one frame exactly, in any order", run, exit);
   command->add_option("IN", a->inputs, "OpenEXR images with the same windows and channels")
       ->type_name("FILE")
       ->required();
@@ -84,7 +83,6 @@ void add_film_average(CLI::App& film, int& exit) {
   add_nonfinite_option(*command, a->write.nonfinite, "the sample is left out");
   add_format_options(*command, a->write, "the widest type of each channel");
   add_common(*command, a->common, "spectile film average a.exr b.exr --weights 64,128 -o mean.exr");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -85,8 +84,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_film_develop(CLI::App& film, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = film.add_subcommand("develop", "Develop a partial film into an image");
+  const auto [command, a] =
+      add_subcommand(film, "develop", "Develop a partial film into an image", run, exit);
   command->add_option("IN", a->input, "Partial film")->type_name("FILE")->required();
   const OptionAdder option{*command};
   option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write")->required();
@@ -95,7 +94,6 @@ void add_film_develop(CLI::App& film, int& exit) {
   option("--sensor", a->sensor, "NAME", kColorGroup, "Sensor to develop, where the film holds several");
   add_format_options(*command, a->write, "half");
   add_common(*command, a->common, "spectile film develop all.exr --to xyz --pixel float -o image.exr");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

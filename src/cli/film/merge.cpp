@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <set>
 
 #include "src/cli/commands.hpp"
@@ -68,13 +67,12 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_film_merge(CLI::App& film, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = film.add_subcommand("merge", "Merge partial films; the order does not matter");
+  const auto [command, a] =
+      add_subcommand(film, "merge", "Merge partial films; the order does not matter", run, exit);
   command->add_option("IN", a->inputs, "Partial films")->type_name("FILE")->required();
   OptionAdder{*command}("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
   add_film_compression_option(*command, a->compression);
   add_common(*command, a->common, "spectile film merge a.exr b.exr -o all.exr");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

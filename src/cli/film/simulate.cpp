@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -215,9 +214,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 void add_film_simulate(CLI::App& film, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      film.add_subcommand("simulate", "Sample a scene whose exact values are known, into a partial film");
+  const auto [command, a] = add_subcommand(
+      film, "simulate", "Sample a scene whose exact values are known, into a partial film", run, exit);
   const OptionAdder option{*command};
   option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
   option("--reference,--truth", a->reference, "FILE", kFilesGroup, "Write the exact XYZ too, as an image");
@@ -263,7 +261,6 @@ void add_film_simulate(CLI::App& film, int& exit) {
       ->capture_default_str();
   add_common(*command, a->common,
              "spectile film simulate --scene mixed --samples 64 --shard 0/2 -o part0.exr");
-  command->callback([a, &exit] { exit = run(*a); });
 }
 
 }  // namespace spectile::cli

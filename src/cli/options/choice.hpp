@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace spectile::cli {
 
@@ -74,5 +76,16 @@ struct OptionAdder {
     return option->group(group);
   }
 };
+
+/// Adds a subcommand with arguments of its own, with which it runs; its exit code goes to `exit`.
+template <class Arguments>
+std::pair<CLI::App*, std::shared_ptr<Arguments>> add_subcommand(CLI::App& parent, const char* name,
+                                                                const char* about,
+                                                                int (*run)(const Arguments&), int& exit) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = parent.add_subcommand(name, about);
+  command->callback([arguments, run, &exit] { exit = run(*arguments); });
+  return {command, std::move(arguments)};
+}
 
 }  // namespace spectile::cli

@@ -44,9 +44,8 @@ Result<std::shared_ptr<AverageStrip>> AverageStrip::create(const AveragePlan& pl
     strip->stride_bytes.push_back(stride);
   }
   const std::size_t bytes = plan.planes.size() * rows * padded(plan);
-  SPECTILE_ASSIGN(auto flags, FloatBuffer::create(bytes / sizeof(float)));
-  std::memset(flags.data(), 0, bytes);
-  strip->flags_ = std::move(flags);
+  SPECTILE_ASSIGN(strip->flags_, FloatBuffer::create(bytes / sizeof(float)));
+  std::memset(strip->flags_.data(), 0, bytes);
   strip->lines_ = std::vector<Line>(rows);
   return strip;
 }

@@ -78,7 +78,7 @@ bool set_plain(const Imf::Attribute& from, const Place& at, exr_result_t& result
   return true;
 }
 
-bool set_vector_or_matrix(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
+bool set_numbers(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
   return set_plain<Imf::Box2iAttribute>(from, at, result, exr_attr_set_box2i) ||
          set_plain<Imf::Box2fAttribute>(from, at, result, exr_attr_set_box2f) ||
          set_plain<Imf::V2iAttribute>(from, at, result, exr_attr_set_v2i) ||
@@ -90,7 +90,9 @@ bool set_vector_or_matrix(const Imf::Attribute& from, const Place& at, exr_resul
          set_plain<Imf::M33fAttribute>(from, at, result, exr_attr_set_m33f) ||
          set_plain<Imf::M33dAttribute>(from, at, result, exr_attr_set_m33d) ||
          set_plain<Imf::M44fAttribute>(from, at, result, exr_attr_set_m44f) ||
-         set_plain<Imf::M44dAttribute>(from, at, result, exr_attr_set_m44d);
+         set_plain<Imf::M44dAttribute>(from, at, result, exr_attr_set_m44d) ||
+         set_plain<Imf::RationalAttribute>(from, at, result, exr_attr_set_rational) ||
+         set_plain<Imf::ChromaticitiesAttribute>(from, at, result, exr_attr_set_chromaticities);
 }
 
 bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
@@ -104,9 +106,6 @@ bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& resul
     result = exr_attr_set_string(at.to, at.part, at.name, s->value().c_str());
   } else if (const auto* e = dynamic_cast<const Imf::EnvmapAttribute*>(&from)) {
     result = exr_attr_set_envmap(at.to, at.part, at.name, static_cast<exr_envmap_t>(e->value()));
-  } else if (const auto* r = dynamic_cast<const Imf::RationalAttribute*>(&from)) {
-    const exr_attr_rational_t value = {r->value().n, r->value().d};
-    result = exr_attr_set_rational(at.to, at.part, at.name, &value);
   } else if (const auto* t = dynamic_cast<const Imf::TimeCodeAttribute*>(&from)) {
     const exr_attr_timecode_t value = {t->value().timeAndFlags(), t->value().userData()};
     result = exr_attr_set_timecode(at.to, at.part, at.name, &value);
@@ -115,11 +114,6 @@ bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& resul
     const exr_attr_keycode_t value = {v.filmMfcCode(), v.filmType(),      v.prefix(),       v.count(),
                                       v.perfOffset(),  v.perfsPerFrame(), v.perfsPerCount()};
     result = exr_attr_set_keycode(at.to, at.part, at.name, &value);
-  } else if (const auto* c = dynamic_cast<const Imf::ChromaticitiesAttribute*>(&from)) {
-    const Imf::Chromaticities& v = c->value();
-    const exr_attr_chromaticities_t value = {v.red.x,  v.red.y,  v.green.x, v.green.y,
-                                             v.blue.x, v.blue.y, v.white.x, v.white.y};
-    result = exr_attr_set_chromaticities(at.to, at.part, at.name, &value);
   } else {
     return false;
   }
@@ -160,7 +154,7 @@ exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part
     if (must_stay_behind(attribute.typeName())) continue;
     const Place at = {to, part, it.name()};
     exr_result_t result = EXR_ERR_SUCCESS;
-    if (!set_scalar(attribute, at, result) && !set_vector_or_matrix(attribute, at, result) &&
+    if (!set_scalar(attribute, at, result) && !set_numbers(attribute, at, result) &&
         !set_list(attribute, at, result)) {
       MemoryStream stream;
       attribute.writeValueTo(stream, Imf::EXR_VERSION);

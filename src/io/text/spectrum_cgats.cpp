@@ -196,8 +196,7 @@ struct SpectralData {
 
 Result<SpectralData> read_data(const TextFile& file) {
   SpectralData out;
-  SPECTILE_ASSIGN(auto table, Reader(file).read());
-  out.table = std::move(table);
+  SPECTILE_ASSIGN(out.table, Reader(file).read());
   SPECTILE_ASSIGN(const auto bands,
                   number_of(file, out.table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMaxBands));
   SPECTILE_ASSIGN(const auto start,
@@ -213,8 +212,7 @@ Result<SpectralData> read_data(const TextFile& file) {
   for (std::size_t i = 0; i < count; ++i) {
     out.wavelengths_nm.push_back(start + (end - start) * static_cast<double>(i) / (bands - 1));
   }
-  SPECTILE_ASSIGN(auto places, spectral_fields(file, out.table, count));
-  out.places = std::move(places);
+  SPECTILE_ASSIGN(out.places, spectral_fields(file, out.table, count));
   out.fields = out.table.format_line == 0 ? out.places.size() : out.table.fields.size();
   SPECTILE_ASSIGN(out.rows, count_rows(file, out.table, out.fields));
   return out;

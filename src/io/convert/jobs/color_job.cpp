@@ -28,8 +28,7 @@ Result<void> ColorJob::prepare(const ExrWriter& writer, std::size_t slots) {
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
     Work work;
-    SPECTILE_ASSIGN(auto color, ColorLine::create(source_.width()));
-    work.color = std::move(color);
+    SPECTILE_ASSIGN(work.color, ColorLine::create(source_.width()));
     SPECTILE_ASSIGN(work.halves, FloatBuffer::create(work.color.padded / 2));
     SPECTILE_ASSIGN(work.spectra, FloatBuffer::create(spectra_floats()));
     works_.push_back(std::move(work));

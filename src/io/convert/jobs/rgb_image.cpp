@@ -20,8 +20,7 @@ Result<RgbImage> read(const std::string& path, const std::string& layer, int thr
   image.width = source->width();
   image.height = source->height();
   const auto width = static_cast<std::size_t>(image.width);
-  SPECTILE_ASSIGN(auto rgb, ColorLanes::create(width * static_cast<std::size_t>(image.height)));
-  image.rgb = std::move(rgb);
+  SPECTILE_ASSIGN(image.rgb, ColorLanes::create(width * static_cast<std::size_t>(image.height)));
   SPECTILE_ASSIGN(auto line_memory, io::ColorLine::create(image.width));
   const int step = io::strip_lines(source->header(), source->planes(), 1);
   for (int first = 0; first < image.height; first += step) {

@@ -11,9 +11,8 @@
 namespace spectile::io {
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
                                                    int threads, const std::optional<PixelWindow>& region) {
-  SPECTILE_ASSIGN(auto input, ExrInput::open(path, threads));
   std::unique_ptr<RgbSource> source(new RgbSource);
-  source->input_ = std::move(input);
+  SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
   SPECTILE_TRY(source->choose(layer));
   SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
   SPECTILE_TRY(source->choose_region(region));

@@ -50,9 +50,8 @@ Result<std::vector<PlaneSpec>> band_planes(const PartHeader& header, const Spect
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              std::optional<Quantity> wanted, int threads,
                                                              const std::optional<PixelWindow>& region) {
-  SPECTILE_ASSIGN(auto input, ExrInput::open(path, threads));
   std::unique_ptr<SpectralSource> source(new SpectralSource);
-  source->input_ = std::move(input);
+  SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
   std::optional<SpectralChannels> channels;
   for (int part = 0; part < source->input_->parts() && !channels; ++part) {
     if (source->input_->header(part).deep()) continue;

@@ -37,8 +37,7 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
 Result<LineSolver::Work> LineSolver::work(int width) const {
   Work work;
   if (mixes_) return work;
-  SPECTILE_ASSIGN(auto coefficients, ColorLine::create(width));
-  work.coefficients = std::move(coefficients);
+  SPECTILE_ASSIGN(work.coefficients, ColorLine::create(width));
   const std::size_t padded = work.coefficients.padded;
   SPECTILE_ASSIGN(work.scale, FloatBuffer::create(padded));
   work.unsolved.resize(padded / kLanesPerBlock);

@@ -12,8 +12,7 @@ namespace spectile::io {
 Result<ColorLine> ColorLine::create(int width) {
   ColorLine line;
   line.padded = blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
-  SPECTILE_ASSIGN(auto memory, FloatBuffer::create(3 * line.padded));
-  line.memory = std::move(memory);
+  SPECTILE_ASSIGN(line.memory, FloatBuffer::create(3 * line.padded));
   for (std::size_t k = 0; k < 3; ++k) line.rows[k] = line.memory.data() + k * line.padded;
   return line;
 }
