@@ -227,13 +227,9 @@ void add_scaling(BenchmarkReport& report) {
              : many.limit == "divide"     ? found->divide
                                           : found->copy;
     };
-    ThreadScaling s;
-    s.name = many.name;
-    s.level = many.level;
-    s.threads = many.threads;
-    s.speed_up = many.items_per_second / one->items_per_second;
-    s.limit = scaling_limit(many.threads) / scaling_limit(1);
-    report.scaling.push_back(std::move(s));
+    report.scaling.push_back({many.name, many.level, many.threads,
+                              many.items_per_second / one->items_per_second,
+                              scaling_limit(many.threads) / scaling_limit(1)});
   }
 }
 

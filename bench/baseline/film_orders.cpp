@@ -149,8 +149,7 @@ struct Row {
   Films* films = nullptr;
   const ArrivalOrder* order = nullptr;
   Comparison comparison = Comparison::kFilm;
-  Add engine, baseline;
-  Timed engine_time, baseline_time, tuned_time;
+  Timed engine = {}, baseline = {}, tuned = {};
 };
 
 void pass(const ArrivalOrder& order, const Add& add) {
@@ -160,43 +159,35 @@ void pass(const ArrivalOrder& order, const Add& add) {
 
 void add_row(std::deque<Row>& rows, Films& films, const ArrivalOrder& order, Comparison comparison,
              const std::vector<std::string>& only) {
+  const std::string name = row_name(comparison, order.name);
+  if (!is_chosen(name, only)) return;
   const AosBaseline& aos = aos_baseline();
-  Row row;
-  row.films = &films;
-  row.order = &order;
-  row.comparison = comparison;
-  row.engine = films.engine_add();
-  Add tuned;
+  const auto passes = [&order](Add add) { return [&order, add = std::move(add)] { pass(order, add); }; };
+  Row& row = rows.emplace_back(Row{name, &films, &order, comparison});
+  row.engine.run = passes(comparison == Comparison::kDrawing ? films.engine_draw() : films.engine_add());
   switch (comparison) {
     case Comparison::kFilm:
-      row.baseline = films.aos_add(aos.film_add);
-      tuned = films.aos_add(aos.film_add_tuned);
+      row.baseline.run = passes(films.aos_add(aos.film_add));
+      row.tuned.run = passes(films.aos_add(aos.film_add_tuned));
       break;
     case Comparison::kPlainSums:
-      row.baseline = films.plain_add();
+      row.baseline.run = passes(films.plain_add());
       break;
     case Comparison::kDrawing:
-      row.engine = films.engine_draw();
-      row.baseline = films.aos_add(aos.film_add_drawing);
+      row.baseline.run = passes(films.aos_add(aos.film_add_drawing));
       break;
     case Comparison::kBuckets:
-      row.baseline = films.aos_add(aos.film_add_buckets);
+      row.baseline.run = passes(films.aos_add(aos.film_add_buckets));
       break;
   }
-  row.name = row_name(comparison, order.name);
-  if (!is_chosen(row.name, only)) return;
-  row.engine_time.run = [&order, add = row.engine] { pass(order, add); };
-  row.baseline_time.run = [&order, add = row.baseline] { pass(order, add); };
-  if (tuned) row.tuned_time.run = [&order, add = tuned] { pass(order, add); };
-  rows.push_back(std::move(row));
 }
 
 /// Errors of engine and baseline after one pass over empty films.
 Result<std::pair<double, double>> errors(const Row& row) {
   Films& f = *row.films;
   SPECTILE_TRY(f.clear());
-  pass(*row.order, row.engine);
-  pass(*row.order, row.baseline);
+  row.engine.run();
+  row.baseline.run();
   if (row.comparison == Comparison::kBuckets) {
     const Bands& bands = f.options.bands;
     SPECTILE_ASSIGN(auto spectrum, FilmDevelopment::create(*f.engine, FilmLayer::kSpectrum));
@@ -261,27 +252,27 @@ Result<std::vector<BaselineSpeed>> measure_film_orders(const FilmOrderSettings& 
   for (const ArrivalOrder& order : spectral) add_row(rows, *buckets, order, Comparison::kBuckets, s.only);
   std::vector<Timed*> work;
   for (Row& row : rows) {
-    for (Timed* t : {&row.engine_time, &row.baseline_time, &row.tuned_time}) {
+    for (Timed* t : {&row.engine, &row.baseline, &row.tuned}) {
       if (t->run) work.push_back(t);
     }
   }
   time_in_turn(work, s.timing);
   std::vector<BaselineSpeed> out;
   for (const Row& row : rows) {
-    if (row.engine_time.rounds.empty()) break;
+    if (row.engine.rounds.empty()) break;
     const auto samples = static_cast<double>(row.order->size());
     BaselineSpeed speed;
     speed.group = "film";
     speed.name = row.name;
     speed.item = "sample";
-    speed.nanoseconds = 1e9 * row.engine_time.seconds / samples;
-    speed.baseline_nanoseconds = 1e9 * row.baseline_time.seconds / samples;
-    speed.fused_nanoseconds = 1e9 * row.tuned_time.seconds / samples;
-    speed.ratio = median_ratio(row.baseline_time, row.engine_time);
-    speed.fused_ratio = median_ratio(row.tuned_time, row.engine_time);
-    speed.spread = row.engine_time.spread;
+    speed.nanoseconds = 1e9 * row.engine.seconds / samples;
+    speed.baseline_nanoseconds = 1e9 * row.baseline.seconds / samples;
+    speed.fused_nanoseconds = 1e9 * row.tuned.seconds / samples;
+    speed.ratio = median_ratio(row.baseline, row.engine);
+    speed.fused_ratio = median_ratio(row.tuned, row.engine);
+    speed.spread = row.engine.spread;
     speed.limit = "copy, memory";
-    if (s.copy > 0) speed.fraction = moved_bytes(row) * samples / row.engine_time.seconds / s.copy;
+    if (s.copy > 0) speed.fraction = moved_bytes(row) * samples / row.engine.seconds / s.copy;
     SPECTILE_ASSIGN(const auto error, errors(row));
     speed.error = error.first;
     speed.baseline_error = error.second;

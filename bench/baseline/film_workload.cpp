@@ -32,6 +32,23 @@ std::size_t pixel_number(const ArrivalOrder& order, std::size_t i) {
          static_cast<std::size_t>(order.x[i]);
 }
 
+using BucketValue = std::function<double(int x, int y, std::size_t bucket)>;
+
+/// Largest relative error of means. `sums`: numbers and their weights, [pixel][bucket].
+double worst_mean(const std::vector<std::pair<double, double>>& sums, std::size_t width, std::size_t buckets,
+                  const BucketValue& value) {
+  double worst = 0;
+  for (std::size_t at = 0; at < sums.size(); ++at) {
+    const auto [sum, weights] = sums[at];
+    if (weights == 0) continue;
+    const std::size_t pixel = at / buckets;
+    const double found =
+        value(static_cast<int>(pixel % width), static_cast<int>(pixel / width), at % buckets);
+    worst = std::max(worst, std::abs(found * weights / sum - 1));
+  }
+  return worst;
+}
+
 }  // namespace
 
 ArrivalOrder by_tile(int width, int height, std::size_t per_visit, std::size_t visits,
@@ -136,19 +153,12 @@ double luminance_error(const ArrivalOrder& order, const std::vector<double>& lum
     sum += luminance[i % kSamplePool];
     count += 1;
   }
-  double worst = 0;
-  for (std::size_t p = 0; p < sums.size(); ++p) {
-    const auto [sum, count] = sums[p];
-    if (count == 0) continue;
-    const auto width = static_cast<std::size_t>(order.width);
-    const double found = value(static_cast<int>(p % width), static_cast<int>(p / width));
-    worst = std::max(worst, std::abs(found * count / sum - 1));
-  }
-  return worst;
+  return worst_mean(sums, static_cast<std::size_t>(order.width), 1,
+                    [&](int x, int y, std::size_t) { return value(x, y); });
 }
 
 double bucket_error(const ArrivalOrder& order, const SamplePool& pool, const Bands& bands, bool by_density,
-                    const std::function<double(int x, int y, std::size_t bucket)>& value) {
+                    const BucketValue& value) {
   const auto width = static_cast<std::size_t>(order.width);
   const std::size_t buckets = bands.count();
   const std::size_t pixels = width * kFilmTile;
@@ -168,16 +178,7 @@ double bucket_error(const ArrivalOrder& order, const SamplePool& pool, const Ban
       weights += weight;
     }
   }
-  double worst = 0;
-  for (std::size_t at = 0; at < sums.size(); ++at) {
-    const auto [sum, weights] = sums[at];
-    if (weights == 0) continue;
-    const std::size_t pixel = at / buckets;
-    const double found =
-        value(static_cast<int>(pixel % width), static_cast<int>(pixel / width), at % buckets);
-    worst = std::max(worst, std::abs(found * weights / sum - 1));
-  }
-  return worst;
+  return worst_mean(sums, width, buckets, value);
 }
 
 }  // namespace spectile::measure

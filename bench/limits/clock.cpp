@@ -53,20 +53,14 @@ double own_seconds() {
 double busy_seconds() {
   std::ifstream file("/proc/stat");
   std::string cpu;
-  double user = 0;
-  double nice = 0;
-  double system = 0;
-  double idle = 0;
-  double waiting = 0;
-  double interrupts = 0;
-  double soft_interrupts = 0;
-  double stolen = 0;
-  if (!(file >> cpu >> user >> nice >> system >> idle >> waiting >> interrupts >> soft_interrupts >>
-        stolen) ||
-      cpu != "cpu") {
-    return -1;
+  if (!(file >> cpu) || cpu != "cpu") return -1;
+  // User, nice, system, idle, waiting, interrupts, soft interrupts, stolen.
+  double ticks = 0;
+  for (int i = 0; i < 8; ++i) {
+    double more = 0;
+    if (!(file >> more)) return -1;
+    if (i != 3 && i != 4) ticks += more;
   }
-  const double ticks = user + nice + system + interrupts + soft_interrupts + stolen;
   return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 

@@ -84,7 +84,7 @@ Result<std::vector<Representation>> representations_for(const MethodScene& scene
   SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, bands));
   SPECTILE_ASSIGN(auto lanes, ColorLanes::create(colors.size()));
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) lanes.at(i, k) = std::clamp((colors)[i][k], 0.0F, 1.0F);
+    for (std::size_t k = 0; k < 3; ++k) lanes.at(i, k) = std::clamp(colors[i][k], 0.0F, 1.0F);
   }
   SPECTILE_ASSIGN(auto spectra, SampledSpectra::create(bands, colors.size()));
   SPECTILE_TRY(upsample_srgb(upsampler, lanes.view(), spectra.span()));
@@ -110,12 +110,8 @@ Result<std::shared_ptr<Lanes>> representation_lanes(const Representation& r,
                                                     const std::vector<std::vector<std::size_t>>& paths) {
   auto out = std::make_shared<Lanes>();
   out->count = r.count;
-  const auto make = [](FloatBuffer& to, std::size_t floats) -> Result<void> {
-    SPECTILE_ASSIGN(to, FloatBuffer::create(floats));
-    return {};
-  };
   for (std::size_t bounce = 0; bounce < kMaxBounces; ++bounce) {
-    SPECTILE_TRY(make(out->bounces[bounce], kMethodLanes * r.count));
+    SPECTILE_ASSIGN(out->bounces[bounce], FloatBuffer::create(kMethodLanes * r.count));
     for (std::size_t lane = 0; lane < kMethodLanes; ++lane) {
       const std::vector<float>& samples = r.reflectances[paths[lane % kPaths][bounce]];
       for (std::size_t b = 0; b < r.count; ++b) {
@@ -125,9 +121,9 @@ Result<std::shared_ptr<Lanes>> representation_lanes(const Representation& r,
       }
     }
   }
-  SPECTILE_TRY(make(out->product, kMethodLanes * r.count));
-  SPECTILE_TRY(make(out->xyz, 3 * kMethodLanes));
-  SPECTILE_TRY(make(out->weights, 4 * r.count));
+  SPECTILE_ASSIGN(out->product, FloatBuffer::create(kMethodLanes * r.count));
+  SPECTILE_ASSIGN(out->xyz, FloatBuffer::create(3 * kMethodLanes));
+  SPECTILE_ASSIGN(out->weights, FloatBuffer::create(4 * r.count));
   for (std::size_t b = 0; b < r.count; ++b) {
     for (std::size_t k = 0; k < 4; ++k) {
       out->weights.data()[4 * b + k] = k < 3 ? static_cast<float>(r.weights[b][k]) : 0.0F;
@@ -161,16 +157,14 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const MethodSce
   std::vector<std::shared_ptr<Lanes>> lanes;
   std::vector<Timed> timed;
   for (const Representation& r : made) {
-    SPECTILE_ASSIGN(auto own, representation_lanes(r, paths));
-    lanes.push_back(std::move(own));
+    SPECTILE_ASSIGN(lanes.emplace_back(), representation_lanes(r, paths));
     for (int bounces = 1; bounces <= kMaxBounces; ++bounces) {
-      Timed t;
-      t.run = [table = scene.table, l = lanes.back(), bounces] { run_paths(*table, *l, bounces); };
-      timed.push_back(std::move(t));
+      timed.emplace_back().run = [table = scene.table, l = lanes.back(), bounces] {
+        run_paths(*table, *l, bounces);
+      };
     }
   }
   std::vector<Timed*> work;
-  work.reserve(timed.size());
   for (Timed& t : timed) work.push_back(&t);
   time_in_turn(work, timing);
   for (std::size_t i = 0; i < made.size(); ++i) {
@@ -191,8 +185,8 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const MethodSce
       RepresentationSpeed one;
       one.light = scene.light->name;
       one.line_spectrum = scene.light->line_spectrum;
-      one.name = (made)[i].name;
-      one.coefficients = static_cast<int>((made)[i].count);
+      one.name = made[i].name;
+      one.coefficients = static_cast<int>(made[i].count);
       one.bounces = bounces;
       one.nanoseconds = 1e9 * t.seconds / static_cast<double>(kMethodLanes);
       one.spread = t.spread;

@@ -58,9 +58,8 @@ void add_scan(std::vector<Operation>& to) {
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.cache_only = true;
   op.run = [](const KernelTable& k, const Arrays& a) {
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
     RgbScan scan;
-    k.scan_rgb(&scan, rgb, a.n());
+    k.scan_rgb(&scan, a.in3().data(), a.n());
     if (a.blocks * sizeof(std::uint64_t) >= sizeof(scan)) *reinterpret_cast<RgbScan*>(a.target) = scan;
   };
   op.run_error = [](const Arrays& a, bool flushed) {

@@ -2,6 +2,7 @@
 // evaluated.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -62,6 +63,9 @@ struct Arrays {
   const T* in(std::size_t plane = 0) const noexcept {
     return reinterpret_cast<const T*>(source + plane * source_plane);
   }
+  /// The first three planes, as kernels take colours.
+  std::array<const float*, 3> in3() const noexcept { return {in(0), in(1), in(2)}; }
+  std::array<float*, 3> out3() const noexcept { return {out(0), out(1), out(2)}; }
   template <class T = float>
   T* out(std::size_t plane = 0) const noexcept {
     return reinterpret_cast<T*>(target + plane * target_plane);

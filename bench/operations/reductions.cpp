@@ -51,21 +51,18 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
       return (out[0] != 0) == is_reference(in) ? 0.0 : kBeyond;
     };
   };
-  mask(
-      "is_black", 1,
-      [=](const KernelTable& k, const Arrays& a) {
-        k.black_mask(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
-      },
-      [=](const double* v) { return std::all_of(v, v + bands, [](double x) { return x == 0; }); });
+  const auto of_one = [=](auto kernel) {
+    return [=](const KernelTable& k, const Arrays& a) {
+      (k.*kernel)(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
+    };
+  };
+  mask("is_black", 1, of_one(&KernelTable::black_mask),
+       [=](const double* v) { return std::all_of(v, v + bands, [](double x) { return x == 0; }); });
   to.back().bitwise = true;
   // The scan ends at the first sample that is not 0: only black lanes are scanned whole.
   to.back().fill = uniform_values(bands, 0.0F, 0.0F);
-  mask(
-      "has_nan", 1,
-      [=](const KernelTable& k, const Arrays& a) {
-        k.nan_mask(a.out<std::uint64_t>(), a.in(), bands, a.blocks);
-      },
-      [=](const double* v) { return std::any_of(v, v + bands, [](double x) { return std::isnan(x); }); });
+  mask("has_nan", 1, of_one(&KernelTable::nan_mask),
+       [=](const double* v) { return std::any_of(v, v + bands, [](double x) { return std::isnan(x); }); });
   mask(
       "equal_lanes", 2,
       [=](const KernelTable& k, const Arrays& a) {
@@ -118,8 +115,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
       "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
       "memory";
   xyz.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
-    k.project(dst, a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
+    k.project(a.out3().data(), a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
   };
   xyz.error = error_against(3, count, false, xyz.bound, weighted_by(weights, n, 3));
 
@@ -140,9 +136,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   std::array<float, 9> matrix{};
   for (std::size_t i = 0; i < 9; ++i) matrix[i] = static_cast<float>(exact[i]);
   transform.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const src[3] = {a.in(0), a.in(1), a.in(2)};
-    k.transform3(dst, src, matrix.data(), a.n());
+    k.transform3(a.out3().data(), a.in3().data(), matrix.data(), a.n());
   };
   transform.error =
       error_against(3, 3, false, transform.bound, [=](const double* v, double* reference, double* scale) {

@@ -67,10 +67,9 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
       "further steps for the lanes of a vector that need them, gathers, and a 3 x 3 system a step";
   solve.run = [=](const KernelTable& k, const Arrays& a) {
     float* const c[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
     thread_local std::vector<std::uint64_t> unsolved;
     unsolved.resize(a.blocks);
-    k.sigmoid_solve(c, rgb, UpsamplerAccess::sigmoid(*upsampler)->table, unsolved.data(), a.n());
+    k.sigmoid_solve(c, a.in3().data(), UpsamplerAccess::sigmoid(*upsampler)->table, unsolved.data(), a.n());
     // Unsolved colours are marked for the evaluation.
     for (std::size_t i = 0; i < a.n(); ++i) {
       if (unsolved[i / kLanes] == 0) {
@@ -125,10 +124,8 @@ void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
   op.operations = 8 * count * (kSigmoidBand + 20);
   op.bottleneck = "steps without end for the lanes of a vector that need the most, up to 256";
   op.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const c[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_continuation(c, a.out(3), rgb, UpsamplerAccess::sigmoid(*upsampler)->table,
-                           upsampler->luminance().data(), a.n());
+    k.sigmoid_continuation(a.out3().data(), a.out(3), a.in3().data(),
+                           UpsamplerAccess::sigmoid(*upsampler)->table, upsampler->luminance().data(), a.n());
   };
   const std::array<float, 3> luminance = upsampler->luminance();
   op.error = [=](const double* rgb, const double* out, double tiny) {
@@ -196,9 +193,9 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   blocks.out = {1, bands};
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
-    const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-    k.sigmoid_blocks(a.out(), {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands}, a.blocks,
-                     a.non_temporal);
+    k.sigmoid_blocks(a.out(),
+                     {a.in3().data(), nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands},
+                     a.blocks, a.non_temporal);
   };
   blocks.error = samples_error(false);
 
@@ -226,10 +223,8 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   sums.out = {3, 1};
   sums.operations += (6 + 3.0 / 8) * static_cast<double>(bands);
   sums.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
     const SigmoidTable& t = UpsamplerAccess::sigmoid(*upsampler)->table;
-    k.sigmoid_project(dst, {c, nullptr, t.rows, bands}, t.weights, a.n());
+    k.sigmoid_project(a.out3().data(), {a.in3().data(), nullptr, t.rows, bands}, t.weights, a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {
     if (!has_bound(c)) return kOutOfDomain;

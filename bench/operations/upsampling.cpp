@@ -86,9 +86,8 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.bound = 6;
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_blocks(a.out(), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.blocks,
-                   a.non_temporal);
+    k.smits_blocks(a.out(), a.in3().data(), {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()},
+                   a.blocks, a.non_temporal);
   };
   op.error = mixture_error(flat_basis(*upsampler), bands, 0);
 
@@ -100,9 +99,9 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     line.can_stream = false;
     line.cache_only = true;
     line.run = [=](const KernelTable& k, const Arrays& a) {
-      const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
       (half ? k.smits_rows_half : k.smits_rows_float)(
-          line_rows(a, bands), rgb, {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
+          line_rows(a, bands), a.in3().data(),
+          {UpsamplerAccess::table(*upsampler), bands, upsampler->lowest()}, a.n());
     };
   }
   Operation& halves = to.back();
@@ -138,9 +137,7 @@ void add_relight(std::vector<Operation>& to, const std::shared_ptr<const Relight
       "ordering the components and choosing bases: selections, of which AVX2's take three micro-operations";
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
-    const float* const rgb[3] = {a.in(0), a.in(1), a.in(2)};
-    k.smits_fold(dst, rgb, RelighterAccess::table(*relighter), a.n());
+    k.smits_fold(a.out3().data(), a.in3().data(), RelighterAccess::table(*relighter), a.n());
   };
   auto basis = std::make_shared<std::vector<double>>();
   for (std::size_t row = 0; row < 3; ++row) {

@@ -84,10 +84,10 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   project.bound = kWavelengths + 6;
   project.fill = fill_path;
   project.run = [=](const KernelTable& k, const Arrays& a) {
-    float* const dst[3] = {a.out(0), a.out(1), a.out(2)};
     const PathRows path(a);
     const EvenTable curves[3] = {even_table(*pairs), even_table(*pairs), even_table(*pairs)};
-    k.project_wavelengths(dst, {path.values, path.lambda, path.density, kWavelengths}, curves, 0.25F, a.n());
+    k.project_wavelengths(a.out3().data(), {path.values, path.lambda, path.density, kWavelengths}, curves,
+                          0.25F, a.n());
   };
   project.error = error_against(
       3, 2 * kWavelengths, false, project.bound, [=](const double* v, double* reference, double* scale) {
