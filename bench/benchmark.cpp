@@ -161,8 +161,7 @@ Result<void> measure_films(Run& run, const BenchmarkOptions& options, BenchmarkR
 
 Result<void> measure_operations(Run& run, const BenchmarkOptions& options, BenchmarkReport& report) {
   const Bands bands;
-  SPECTILE_ASSIGN(auto made, lane_operations(bands));
-  std::vector<Operation> operations = std::move(made);
+  SPECTILE_ASSIGN(auto operations, lane_operations(bands));
   std::erase_if(operations, [&](const Operation& op) { return !is_chosen(op.name, options.only); });
   if (operations.empty()) return no_operation(options);
   const std::vector<std::string> isas = chosen_isas(options, report.machine);

@@ -127,15 +127,13 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
   // The light on the scale on which the film's white is 1.
   const auto& light = scene.light->spectrum;
   double luminance = 0;
-  {
-    SPECTILE_ASSIGN(const auto y_bar, named_spectrum("cie1931-y"));
-    double total = 0;
-    for (int nm = 360; nm <= 830; ++nm) {
-      luminance += y_bar(nm) * light.at(nm);
-      total += y_bar(nm);
-    }
-    luminance /= total;
+  SPECTILE_ASSIGN(const auto y_bar, named_spectrum("cie1931-y"));
+  double total = 0;
+  for (int nm = 360; nm <= 830; ++nm) {
+    luminance += y_bar(nm) * light.at(nm);
+    total += y_bar(nm);
   }
+  luminance /= total;
   for (std::size_t sample = 0; sample < kDrawsPerPixel; ++sample) {
     // Stratified over a pixel's samples: each in its own part of the range.
     for (std::size_t i = 0; i < kMethodLanes; ++i) {

@@ -182,16 +182,9 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const MethodSce
         errors.add(reference_xyz(*scene.light, along), found);
       }
       const Timed& t = timed[i * kMaxBounces + static_cast<std::size_t>(bounces - 1)];
-      RepresentationSpeed one;
-      one.light = scene.light->name;
-      one.line_spectrum = scene.light->line_spectrum;
-      one.name = made[i].name;
-      one.coefficients = static_cast<int>(made[i].count);
-      one.bounces = bounces;
-      one.nanoseconds = 1e9 * t.seconds / static_cast<double>(kMethodLanes);
-      one.spread = t.spread;
-      one.error = errors.summary();
-      out.push_back(std::move(one));
+      out.push_back({scene.light->name, scene.light->line_spectrum, made[i].name,
+                     static_cast<int>(made[i].count), bounces,
+                     1e9 * t.seconds / static_cast<double>(kMethodLanes), t.spread, errors.summary()});
     }
   }
   return out;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/upsampling/relight.hpp>
@@ -88,9 +89,9 @@ struct Maker {
   }
 };
 
-const float* const* rgb_pointers(const State& s, const float* (&to)[3]) {
-  for (std::size_t k = 0; k < 3; ++k) to[k] = s.texture->rgb.view().c[k];
-  return to;
+std::array<const float*, 3> rgb_rows(const State& s) {
+  const auto view = s.texture->rgb.view();
+  return {view.c[0], view.c[1], view.c[2]};
 }
 
 void sum_up(const KernelTable& k, State& s) {
@@ -104,17 +105,15 @@ void through_halves(const KernelTable& k, State& s) {
 }
 
 void mix(const KernelTable& k, State& s) {
-  const float* rgb[3];
-  k.smits_blocks(s.spectra.data(), rgb_pointers(s, rgb),
+  k.smits_blocks(s.spectra.data(), rgb_rows(s).data(),
                  {UpsamplerAccess::table(*s.upsampler), s.upsampler->bands().count(), s.upsampler->lowest()},
                  blocks_for(kMethodLanes), false);
 }
 
 void solve(const KernelTable& k, State& s) {
-  const float* rgb[3];
   float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kMethodLanes,
                        s.coefficients.data() + 2 * kMethodLanes};
-  k.sigmoid_solve(c, rgb_pointers(s, rgb), UpsamplerAccess::sigmoid(*s.upsampler)->table, s.unsolved.data(),
+  k.sigmoid_solve(c, rgb_rows(s).data(), UpsamplerAccess::sigmoid(*s.upsampler)->table, s.unsolved.data(),
                   kMethodLanes);
 }
 
@@ -172,8 +171,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
-    const float* rgb[3];
-    k.smits_fold(t.xyz.span().c, rgb_pointers(t, rgb), RelighterAccess::table(*t.relighter), kMethodLanes);
+    k.smits_fold(t.xyz.span().c, rgb_rows(t).data(), RelighterAccess::table(*t.relighter), kMethodLanes);
   });
   return {};
 }
@@ -189,8 +187,7 @@ Result<void> add_rgb(Maker& maker) {
   auto folded = std::make_shared<std::vector<float>>();
   for (std::size_t i = 0; i < 9; ++i) folded->push_back(static_cast<float>(to_xyz[i] * light[i % 3]));
   maker.add(state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
-    const float* rgb[3];
-    k.transform3(t.xyz.span().c, rgb_pointers(t, rgb), folded->data(), kMethodLanes);
+    k.transform3(t.xyz.span().c, rgb_rows(t).data(), folded->data(), kMethodLanes);
   });
   maker.methods.back().bands = 0;
   return {};

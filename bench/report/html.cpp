@@ -129,13 +129,11 @@ std::string benchmark_to_html(const BenchmarkReport& benchmark) {
   const Section machine = report::machine_section(benchmark);
   std::vector<Section> sections = {report::advice_section(benchmark)};
   for (Section& section : report::method_sections(benchmark)) sections.push_back(std::move(section));
-  sections.push_back(report::representation_section(benchmark));
-  sections.push_back(report::operation_section(benchmark));
-  sections.push_back(report::baseline_section(benchmark));
-  sections.push_back(report::limit_section(benchmark));
-  sections.push_back(report::scaling_section(benchmark));
-  sections.push_back(report::stress_section(benchmark));
-  sections.push_back(report::reproduce_section(benchmark));
+  for (Section (*make)(const BenchmarkReport&) :
+       {report::representation_section, report::operation_section, report::baseline_section,
+        report::limit_section, report::scaling_section, report::stress_section, report::reproduce_section}) {
+    sections.push_back(make(benchmark));
+  }
 
   std::string body;
   for (const Section& section : sections) body += section.code;

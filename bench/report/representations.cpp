@@ -37,14 +37,10 @@ Chart make_chart(const BenchmarkReport& report, const std::string& light,
     series.style = static_cast<int>(i) + 1;
     series.line = true;
     for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
-      ChartMark mark;
-      mark.x = r->nanoseconds;
-      mark.y = r->error.mean;
-      mark.number = fmt::format("{}", r->bounces);
-      mark.title = fmt::format("{}, {} bounce{}: {} ns, CIEDE2000 {} mean, {} at most", r->name, r->bounces,
-                               r->bounces == 1 ? "" : "s", number(r->nanoseconds), number(r->error.mean),
-                               number(r->error.maximum));
-      series.marks.push_back(std::move(mark));
+      const std::string title = fmt::format("{}, {} bounce{}: {} ns, CIEDE2000 {} mean, {} at most", r->name,
+                                            r->bounces, r->bounces == 1 ? "" : "s", number(r->nanoseconds),
+                                            number(r->error.mean), number(r->error.maximum));
+      series.marks.push_back({r->nanoseconds, r->error.mean, title, "", fmt::format("{}", r->bounces)});
     }
     chart.series.push_back(std::move(series));
   }

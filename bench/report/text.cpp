@@ -42,24 +42,13 @@ std::size_t code_point_size(std::string_view text, std::size_t i) {
 }
 
 std::string escaped_byte(char c) {
-  switch (c) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&#39;";
-    case '\n':
-    case '\t':
-      return {c};
-    default:
-      return static_cast<unsigned char>(c) < 0x20U || c == 0x7F ? std::string(kReplacement)
-                                                                : std::string(1, c);
+  constexpr std::pair<char, const char*> kEntities[] = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+  for (const auto& [character, entity] : kEntities) {
+    if (c == character) return entity;
   }
+  const bool control = (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t') || c == 0x7F;
+  return control ? std::string(kReplacement) : std::string(1, c);
 }
 
 /// Spaces between the thousands of plain digits.

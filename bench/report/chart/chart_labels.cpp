@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "bench/report/text.hpp"
@@ -29,23 +28,21 @@ struct Candidate {
 /// Text whose nearest point is at (x, y), away from the mark in the direction of (dx, dy).
 Candidate candidate(double x, double y, double dx, double dy, double width, double font_size) {
   Candidate c;
-  double left = 0;
-  if (dx > 0.3) {
-    left = x;
-  } else if (dx < -0.3) {
+  double left = x;
+  c.label.x = x;
+  if (dx < -0.3) {
     left = x - width;
+    c.label.x = left + width;
     c.label.anchor = "end";
-  } else {
+  } else if (dx <= 0.3) {
     left = x - width / 2;
+    c.label.x = left + width / 2;
     c.label.anchor = "middle";
   }
   // Capitals reach about 0.72 of the font size above the base line, tails 0.22 below.
   const double middle = y + dy * font_size / 2;
   c.box = {left, middle - 0.52 * font_size, left + width, middle + 0.52 * font_size};
   c.label.y = middle + 0.34 * font_size;
-  c.label.x = std::strcmp(c.label.anchor, "start") == 0 ? left
-              : std::strcmp(c.label.anchor, "end") == 0 ? left + width
-                                                        : left + width / 2;
   return c;
 }
 

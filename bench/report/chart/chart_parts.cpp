@@ -22,15 +22,24 @@ constexpr double kBetween = 14;
 constexpr std::array<const char*, 6> kColors = {"#0072b2", "#d55e00", "#009e73",
                                                 "#cc79a7", "#e69f00", "#56b4e9"};
 constexpr const char* kBlack = "#000000";
-// One shape more than there are colours: styles repeat after 42.
-constexpr int kShapes = 7;
+/// A polygon, or a star where its inner corners are nearer; turned by a part of a full turn.
+struct Polygon {
+  int corners;
+  double radius;  ///< over that of a circle of the same area
+  double turn;
+  double inner = 1;
+};
+// Square, triangle, diamond, triangle, star, hexagon. With the circle one shape more than there are colours:
+// styles repeat after 42.
+constexpr std::array<Polygon, 6> kPolygons = {
+    {{4, 1.25, 0.125}, {3, 1.45, 0}, {4, 1.35, 0}, {3, 1.45, 0.5}, {5, 1.6, 0, 0.45}, {6, 1.15, 0}}};
 
-std::string polygon(int corners, double radius, double turn, double inner = 1) {
+std::string polygon(const Polygon& p, double radius) {
   std::string points;
-  const int count = inner < 1 ? 2 * corners : corners;
+  const int count = p.inner < 1 ? 2 * p.corners : p.corners;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * (static_cast<double>(i) / count + turn);
-    const double r = inner < 1 && i % 2 == 1 ? inner * radius : radius;
+    const double angle = 2 * std::numbers::pi * (static_cast<double>(i) / count + p.turn);
+    const double r = p.inner < 1 && i % 2 == 1 ? p.inner * radius : radius;
     points += fmt::format("{}{:.2f},{:.2f}", i > 0 ? " " : "", r * std::sin(angle), -r * std::cos(angle));
   }
   return fmt::format("<polygon points=\"{}\"/>", points);
@@ -124,22 +133,10 @@ std::string style_shape(int style, double radius) {
         "{:.2f}M{:.2f} {:.2f}L{:.2f} {:.2f}\"/>",
         kBlack, 0.5 * radius, -r, -r, r, r, -r, r, r, -r);
   }
-  switch ((style - 1) % kShapes) {
-    case 0:
-      return fmt::format("<circle r=\"{:.2f}\"/>", radius);
-    case 1:
-      return polygon(4, 1.25 * radius, 0.125);  // square
-    case 2:
-      return polygon(3, 1.45 * radius, 0);
-    case 3:
-      return polygon(4, 1.35 * radius, 0);  // diamond
-    case 4:
-      return polygon(3, 1.45 * radius, 0.5);
-    case 5:
-      return polygon(5, 1.6 * radius, 0, 0.45);  // star
-    default:
-      return polygon(6, 1.15 * radius, 0);
-  }
+  const std::size_t shape = static_cast<std::size_t>(style - 1) % (kPolygons.size() + 1);
+  if (shape == 0) return fmt::format("<circle r=\"{:.2f}\"/>", radius);
+  const Polygon& p = kPolygons[shape - 1];
+  return polygon(p, p.radius * radius);
 }
 
 LogAxis::LogAxis(double lowest, double highest, double from, double to) : from_(from), to_(to) {

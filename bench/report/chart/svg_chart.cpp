@@ -55,7 +55,6 @@ class Drawing {
   void add(const Block& block);
   void head();
   void axes();
-  void place_marks();
   void frontier();
   void series_lines();
   void labels();
@@ -132,6 +131,7 @@ void Drawing::head() {
   add(legend_block(entries, f_.width, f_.font));
 }
 
+/// The axes, and the places of the marks between them.
 void Drawing::axes() {
   height_ += line_height_;
   text(12, height_ - 0.2 * f_.font, "start", "↑ " + chart_.y_label);
@@ -165,9 +165,6 @@ void Drawing::axes() {
   if (zeros_) text(f_.left - 6, zero_y_ + 0.34 * f_.font, "end", "0", " class=\"tick y\"");
   text(right_, base + line_height_, "end", chart_.x_label + " →");
   height_ = base + line_height_ + 0.5 * f_.font;
-}
-
-void Drawing::place_marks() {
   for (const ChartSeries& series : chart_.series) {
     for (const ChartMark& mark : series.marks) {
       if (!drawable(mark)) continue;
@@ -302,7 +299,6 @@ std::string Drawing::svg() {
   if (!range()) return {};
   head();
   axes();
-  place_marks();
   frontier();
   series_lines();
   labels();
