@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <spectile/bench/benchmark.hpp>
 #include <spectile/isa.hpp>
 
@@ -37,10 +38,8 @@ std::vector<std::string> chosen_isas(const BenchmarkOptions& options, const Benc
 
 std::vector<int> thread_counts(const BenchmarkOptions& options, int cores) {
   if (!options.threads.empty()) {
-    std::vector<int> asked = options.threads;
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    return asked;
+    const std::set<int> asked(options.threads.begin(), options.threads.end());
+    return {asked.begin(), asked.end()};
   }
   std::vector<int> out;
   for (int n = 1; n < cores; n *= 2) out.push_back(n);

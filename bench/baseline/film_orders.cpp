@@ -70,12 +70,11 @@ class Films {
   }
 
   WavelengthSamples samples(const ArrivalOrder& order, std::size_t i, std::size_t n) const {
-    return {{&order.x[i], n},
-            {&order.y[i], n},
-            {},
-            {pool.radiance.data(), kPoolWavelengths, pool.stride},
-            {pool.lambda_nm.data(), kPoolWavelengths, pool.stride},
-            {pool.density.data(), kPoolWavelengths, pool.stride}};
+    const auto rows = [&](const std::vector<float>& of) {
+      return RowsView{of.data(), kPoolWavelengths, pool.stride};
+    };
+    return {{&order.x[i], n},    {&order.y[i], n},     {},
+            rows(pool.radiance), rows(pool.lambda_nm), rows(pool.density)};
   }
   Add engine_add() {
     return [this](const ArrivalOrder& order, std::size_t i, std::size_t n) {

@@ -24,13 +24,12 @@ constexpr std::size_t kDrawsPerPixel = 256;
 constexpr std::size_t kWavelengths = 4;
 
 struct Positions {
-  std::vector<float> x, y, weight;
+  std::vector<float> x, y;
   Positions() {
     for (std::size_t i = 0; i < kMethodLanes; ++i) {
       x.push_back(static_cast<float>(i % kWidth) + 0.5F);
       const std::size_t line = i / kWidth;
       y.push_back(static_cast<float>(line) + 0.5F);
-      weight.push_back(1.0F);
     }
   }
 };

@@ -59,11 +59,7 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
   op.fill = fill_path;
   op.run = [rows](const KernelTable& k, const Arrays& a) {
     const PathRows path(a);
-    kernels::FilmCurves curves;
-    curves.rows = rows->front().values;
-    curves.first_nm = static_cast<float>(kFirstNm);
-    curves.intervals = kIntervals;
-    curves.largest = 2;
+    const kernels::FilmCurves curves = {rows->front().values, static_cast<float>(kFirstNm), kIntervals, 2};
     k.film_weigh_wavelengths({a.out(), reasons_for(a.n())},
                              {path.values, path.lambda, path.density, nullptr, kWavelengths, a.n()}, curves,
                              kNoLimits, 1.0F / kWavelengths);

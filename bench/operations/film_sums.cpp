@@ -13,11 +13,13 @@ namespace spectile::measure {
 namespace {
 
 using kernels::FilmEntries;
+using kernels::FilmSums;
 using kernels::KernelTable;
 using kernels::kFilmTilePixels;
 
 /// Bands of the film that hits are added to: few, so that many pixels are in the caches.
 constexpr std::size_t kHitBands = 8;
+constexpr std::size_t kHitLimbs = kernels::kFilmHitLimbs * kHitBands;
 
 /// A film whose grids and tables the kernels are given; it is never fed.
 Result<SharedFilm> make_film(bool spectral) {
@@ -34,10 +36,20 @@ double coarse_step(const Film& film, bool weight) {
   return std::ldexp(1.0, (weight ? o.weight_range : o.range) - kFilmCoarseBits);
 }
 
-/// The steps of limbs that a number came to.
-double in_rest_steps(double v, double coarse, double rest, double step) {
+double fine_step(const Film& film, bool weight) {
+  return std::ldexp(coarse_step(film, weight), -kFilmLimbBits);
+}
+
+/// Distance of a number from the limbs that it came to, in fine steps.
+double fine_steps_off(const Film& film, bool weight, double v, double coarse, double rest) {
   // A contribution less its coarse part is exact in double, and so is what is left.
-  return ((v - coarse * step) - rest * std::ldexp(step, -kFilmLimbBits)) / std::ldexp(step, -kFilmLimbBits);
+  const double fine = fine_step(film, weight);
+  return std::abs(((v - coarse * coarse_step(film, weight)) - rest * fine) / fine);
+}
+
+/// The same beyond what an operand may be off by.
+double grid_error(const Film& film, bool weight, double v, double coarse, double rest, double tiny) {
+  return std::max(0.0, fine_steps_off(film, weight, v, coarse, rest) - tiny / fine_step(film, weight));
 }
 
 /// value(i) for each pixel of a tile, made once for each kind of value.
@@ -56,7 +68,8 @@ const float* filter_weights() {
   return tile_table([](std::size_t i) { return static_cast<float>(1 + i % 61) / 64.0F; });
 }
 
-/// Calls add(first lane, entries, tile) for each tile's worth of lanes; lane i is pixel i of its tile.
+/// Calls add(first lane, entries, sums of the tile) for each tile's worth of lanes; lane i is pixel i of its
+/// tile.
 template <class Add>
 void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
   for (std::size_t first = 0; first < a.n(); first += kFilmTilePixels) {
@@ -65,7 +78,7 @@ void over_tiles(const Arrays& a, std::size_t limbs, Add add) {
     entries.address = tile_table([](std::size_t i) { return static_cast<std::int32_t>(i); });
     entries.count = std::min(kFilmTilePixels, a.n() - first);
     entries.tile = 0;
-    add(first, entries, &tile);
+    add(first, entries, FilmSums{&tile, 0, limbs});
   }
 }
 
@@ -103,10 +116,9 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   op.unit = "of a step of the grid";
   op.bound = 0.5;
   op.run = [film](const KernelTable& k, const Arrays& a) {
-    over_tiles(
-        a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-          k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
-        });
+    over_tiles(a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, const FilmSums& sums) {
+      k.film_add(sums, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
+    });
   };
   op.admit = [film](float* v) {
     for (std::size_t c = 0; c < 4; ++c) v[c] = held(v[c], largest(*film, c == 3));
@@ -114,9 +126,8 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   op.error = [=](const double* v, const double* limbs, double tiny) {
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
-      const double step = coarse_step(*film, c == 3);
-      const double off = std::abs(in_rest_steps(v[c], limbs[c], limbs[kernels::kFilmQuadRest + c], step));
-      worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
+      const double rest = limbs[kernels::kFilmQuadRest + c];
+      worst = std::max(worst, grid_error(*film, c == 3, v[c], limbs[c], rest, tiny));
     }
     return worst;
   };
@@ -130,10 +141,10 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
   spread.unit = "u and half a step of the grid";
   spread.bound = 1;
   spread.run = [film](const KernelTable& k, const Arrays& a) {
-    over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, std::int64_t* const* tiles) {
+    over_tiles(a, kPixelLimbs, [&](std::size_t first, FilmEntries entries, const FilmSums& sums) {
       entries.sample = tile_table([](std::size_t i) { return static_cast<std::uint32_t>(i); });
       entries.factor = filter_weights();
-      k.film_add({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
+      k.film_add(sums, FilmAccess::state(*film).grid, entries, a.in() + 4 * first, 1);
     });
   };
   spread.error = nullptr;
@@ -141,12 +152,11 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
     const auto factor = static_cast<double>(filter_weights()[lane % kFilmTilePixels]);
     double worst = 0;
     for (std::size_t c = 0; c < 4; ++c) {
-      const double step = coarse_step(*film, c == 3);
       const double reference = v[c] * factor;
-      const double half = 0.5 * std::ldexp(step, -kFilmLimbBits) + tiny;
-      const double off =
-          std::abs(in_rest_steps(reference, limbs[c], limbs[kernels::kFilmQuadRest + c], step)) *
-          std::ldexp(step, -kFilmLimbBits);
+      const double fine = fine_step(*film, c == 3);
+      const double half = 0.5 * fine + tiny;
+      const double rest = limbs[kernels::kFilmQuadRest + c];
+      const double off = fine_steps_off(*film, c == 3, reference, limbs[c], rest) * fine;
       if (off > half) worst = std::max(worst, (off - half) / (0x1p-24 * std::abs(reference)));
     }
     return worst;
@@ -154,8 +164,7 @@ void add_colors(std::vector<Operation>& to, const SharedFilm& film) {
 }
 
 void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
-  Operation& op =
-      sums_operation(to, "film: add 4 wavelengths to their bands", kernels::kFilmHitLimbs * kHitBands);
+  Operation& op = sums_operation(to, "film: add 4 wavelengths to their bands", kHitLimbs);
   op.in = {kWavelengths, 2, Element::kQuad};
   op.touched_bytes = kWavelengths * 4 * sizeof(std::int64_t);
   // Two numbers a wavelength, times the factor.
@@ -177,12 +186,10 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
         bands[i] = static_cast<std::int32_t>(hit_band(i % apart, i / apart));
       }
     }
-    over_tiles(a, kernels::kFilmHitLimbs * kHitBands,
-               [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-                 k.film_add_hits({tiles, 0, kernels::kFilmHitLimbs * kHitBands},
-                                 FilmAccess::state(*film).band_grid, entries,
-                                 {bands.data() + first, a.in() + 2 * first, kWavelengths, apart});
-               });
+    over_tiles(a, kHitLimbs, [&](std::size_t first, const FilmEntries& entries, const FilmSums& sums) {
+      k.film_add_hits(sums, FilmAccess::state(*film).band_grid, entries,
+                      {bands.data() + first, a.in() + 2 * first, kWavelengths, apart});
+    });
   };
   op.admit = [film](float* v) {
     for (std::size_t k = 0; k < 2 * kWavelengths; ++k) v[k] = held(v[k], largest(*film, k % 2 == 1));
@@ -192,10 +199,8 @@ void add_hit_sums(std::vector<Operation>& to, const SharedFilm& film) {
     for (std::size_t k = 0; k < kWavelengths; ++k) {
       const double* const of_band = limbs + kernels::kFilmHitLimbs * hit_band(lane, k);
       for (std::size_t c = 0; c < 2; ++c) {
-        const double step = coarse_step(*film, c == 1);
-        const double off =
-            std::abs(in_rest_steps(v[2 * k + c], of_band[c], of_band[kernels::kFilmHitRest + c], step));
-        worst = std::max(worst, std::max(0.0, off - tiny / std::ldexp(step, -kFilmLimbBits)));
+        const double rest = of_band[kernels::kFilmHitRest + c];
+        worst = std::max(worst, grid_error(*film, c == 1, v[2 * k + c], of_band[c], rest, tiny));
       }
     }
     return worst;
@@ -210,11 +215,9 @@ void add_moments(std::vector<Operation>& to, const SharedFilm& film) {
   op.bound = 2.01;
   op.bottleneck = "one sample after another: seven limbs in scalar doubles, each of what the one before left";
   op.run = [film](const KernelTable& k, const Arrays& a) {
-    over_tiles(a, kPixelLimbs,
-               [&](std::size_t first, const FilmEntries& entries, std::int64_t* const* tiles) {
-                 k.film_add_moments({tiles, 0, kPixelLimbs}, FilmAccess::state(*film).moment_grid, entries,
-                                    a.in() + 4 * first);
-               });
+    over_tiles(a, kPixelLimbs, [&](std::size_t first, const FilmEntries& entries, const FilmSums& sums) {
+      k.film_add_moments(sums, FilmAccess::state(*film).moment_grid, entries, a.in() + 4 * first);
+    });
   };
   op.admit = [film](float* v) {
     v[3] = std::abs(held(v[3], largest(*film, true)));
@@ -257,8 +260,8 @@ void add_counts(std::vector<Operation>& to) {
   op.unit = "exact";
   op.bottleneck = "one address after another, as two may be of the same pixel";
   op.run = [](const KernelTable& k, const Arrays& a) {
-    over_tiles(a, 1, [&](std::size_t, const FilmEntries& entries, std::int64_t* const* tiles) {
-      k.film_count({tiles, 0, 1}, entries);
+    over_tiles(a, 1, [&](std::size_t, const FilmEntries& entries, const FilmSums& sums) {
+      k.film_count(sums, entries);
     });
   };
   op.error = [](const double*, const double* out, double) { return out[0] == 1 ? 0.0 : kBeyond; };

@@ -24,13 +24,16 @@ struct Entry {
   LaneBaseline baseline;
 };
 
+/// Worked on by all threads together.
+std::size_t all_bytes(const SpeedPlace& place) {
+  return place.level == MemoryLevel::kCache ? place.bytes * static_cast<std::size_t>(place.threads)
+                                            : place.bytes;
+}
+
 void prepare(Entry& entry, float* memory, const SpeedPlace& place) {
   const Operation& op = *entry.operation;
-  const std::size_t bytes = place.level == MemoryLevel::kCache
-                                ? place.bytes * static_cast<std::size_t>(place.threads)
-                                : place.bytes;
-  entry.memory =
-      std::make_unique<LaneMemory>(op, memory, std::max(bytes / op.expense, LaneMemory::min_bytes(op)));
+  entry.memory = std::make_unique<LaneMemory>(
+      op, memory, std::max(all_bytes(place) / op.expense, LaneMemory::min_bytes(op)));
   Random random(place.seed);
   std::vector<float> values(op.in.values());
   const std::size_t filled = std::min(entry.memory->blocks(), kEvaluatedBlocks);
@@ -103,7 +106,7 @@ BaselineSpeed beside_baseline(const Entry& entry, const OperationSpeed& speed) {
 }
 
 Result<SpeedsFound> in_cache(const std::vector<Operation>& operations, const SpeedPlace& place) {
-  const std::size_t bytes = place.bytes * static_cast<std::size_t>(place.threads);
+  const std::size_t bytes = all_bytes(place);
   SPECTILE_ASSIGN(auto memory, FloatBuffer::create(bytes / sizeof(float)));
   LimitLoops limits(*place.table, memory.data(), bytes / sizeof(float), place.threads, place.level);
   std::vector<Entry> entries(operations.size());

@@ -46,6 +46,7 @@ EvenTable even_table(const std::vector<float>& pairs) {
 
 /// Value of the table at a wavelength in double, and the larger neighbour's magnitude.
 std::array<double, 2> at_wavelength(const std::vector<float>& pairs, double lambda) {
+  if (std::isnan(lambda)) return {lambda, 0};
   const double t = lambda - static_cast<double>(kFirstNm);
   if (!(t >= 0 && t <= kIntervals)) return {0, 0};
   const auto i = static_cast<std::size_t>(std::min(t, static_cast<double>(kIntervals - 1)));
@@ -65,10 +66,6 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
     k.interpolate_even(a.out(), a.in(), even_table(*pairs), a.n());
   };
   even.error = error_against(1, 1, false, even.bound, [=](const double* v, double* reference, double* scale) {
-    if (std::isnan(v[0])) {
-      reference[0] = v[0];
-      return;
-    }
     const auto found = at_wavelength(*pairs, v[0]);
     reference[0] = found[0];
     scale[0] = found[1];
@@ -89,26 +86,26 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
     k.project_wavelengths(a.out3().data(), {path.values, path.lambda, path.density, kWavelengths}, curves,
                           0.25F, a.n());
   };
-  project.error = error_against(
-      3, 2 * kWavelengths, false, project.bound, [=](const double* v, double* reference, double* scale) {
-        double sum = 0;
-        double magnitudes = 0;
-        for (std::size_t i = 0; i < kWavelengths; ++i) {
-          const double lambda = v[kWavelengths + i];
-          const double density = v[2 * kWavelengths + i];
-          if (density == 0) continue;
-          const auto found =
-              std::isnan(lambda) ? std::array<double, 2>{lambda, 0} : at_wavelength(*pairs, lambda);
-          sum += found[0] * (v[i] / density);
-          magnitudes += found[1] * std::abs(v[i] / density);
-          // A ratio beyond float's range is an infinity, and times 0 no number: out of the bound's domain.
-          if (std::abs(v[i] / density) > 0x1p127) magnitudes = std::numeric_limits<double>::max();
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-          reference[c] = 0.25 * sum;
-          scale[c] = 0.25 * magnitudes;
-        }
-      });
+  const Oracle color = [=](const double* v, double* reference, double* scale) {
+    double sum = 0;
+    double magnitudes = 0;
+    for (std::size_t i = 0; i < kWavelengths; ++i) {
+      const double lambda = v[kWavelengths + i];
+      const double density = v[2 * kWavelengths + i];
+      if (density == 0) continue;
+      const auto found = at_wavelength(*pairs, lambda);
+      sum += found[0] * (v[i] / density);
+      magnitudes += found[1] * std::abs(v[i] / density);
+      // A ratio beyond float's range is an infinity, and times 0 no number: out
+      // of the bound's domain.
+      if (std::abs(v[i] / density) > 0x1p127) magnitudes = std::numeric_limits<double>::max();
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      reference[c] = 0.25 * sum;
+      scale[c] = 0.25 * magnitudes;
+    }
+  };
+  project.error = error_against(3, 2 * kWavelengths, false, project.bound, color);
 }
 
 /// A spectrum between irregular knots.
@@ -135,14 +132,11 @@ Result<void> add_knots(std::vector<Operation>& to, const Spectrum& spectrum) {
   op.bottleneck = "gathers: of the bucket's knot, of each knot that is compared, of value and slope";
   op.bound = 3;
   op.run = [table](const KernelTable& k, const Arrays& a) {
-    kernels::KnotTable knots;
-    knots.knots = table->index.knots.data();
-    knots.pairs = table->pairs.data();
-    knots.count = static_cast<std::int32_t>(table->nm.size());
-    knots.start = table->index.start.data();
-    knots.buckets_per_nm = table->index.buckets_per_nm;
-    knots.buckets = static_cast<std::int32_t>(table->index.start.size());
-    knots.halvings = table->index.halvings;
+    const KnotIndex& index = table->index;
+    const kernels::KnotTable knots = {
+        index.knots.data(), table->pairs.data(),  static_cast<std::int32_t>(table->nm.size()),
+        index.start.data(), index.buckets_per_nm, static_cast<std::int32_t>(index.start.size()),
+        index.halvings};
     k.interpolate_knots(a.out(), a.in(), knots, a.n());
   };
   op.error = error_against(1, 2, false, op.bound, [table](const double* v, double* reference, double* scale) {
