@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
-#include <optional>
 #include <spectile/color/sensor.hpp>
 #include <spectile/lanes/wavelengths.hpp>
 

@@ -2,7 +2,6 @@
 #include "bench/baseline/lane_baselines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 #include <string_view>

@@ -1,7 +1,6 @@
 // Ways from spectral samples to a film.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <random>
 #include <spectile/film/film.hpp>

@@ -2,7 +2,6 @@
 #include "bench/methods/reference_colors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <spectile/color/color_difference.hpp>
 #include <spectile/spectra/named_spectra.hpp>

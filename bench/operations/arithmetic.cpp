@@ -7,8 +7,6 @@
 namespace spectile::measure {
 namespace {
 
-using kernels::KernelTable;
-
 /// Which values are tried: one plane of samples for each operand.
 Operation& sample_operation(std::vector<Operation>& to, std::string name, std::size_t operands) {
   Operation& out = add_operation(to, "arithmetic", std::move(name), "sample", {operands, 1}, {1, 1});

@@ -1,7 +1,6 @@
 // Film samples to what they contribute to their pixels.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
@@ -12,8 +11,6 @@
 
 namespace spectile::measure {
 namespace {
-
-using kernels::KernelTable;
 
 constexpr std::int32_t kIntervals = 470;  // 360 to 830 nm
 constexpr double kFirstNm = 360;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "bench/operations/films.hpp"
 #include "src/base/errors.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 using kernels::FilmEntries;
 using kernels::FilmSums;
-using kernels::KernelTable;
 using kernels::kFilmTilePixels;
 
 /// Bands of the film that hits are added to: few, so that many pixels are in the caches.

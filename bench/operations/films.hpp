@@ -1,6 +1,7 @@
 // The films whose grids and tables the measured kernels are given.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <spectile/film/film.hpp>
 

@@ -2,7 +2,6 @@
 #include "bench/operations/operation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>

@@ -20,6 +20,7 @@
 namespace spectile::measure {
 
 using Random = std::mt19937_64;
+using kernels::KernelTable;
 
 enum class Element {
   kFloat,
@@ -95,7 +96,7 @@ struct Operation {
   std::string bottleneck;  ///< bottleneck beside the limit, in words
   std::string unit = "u";  ///< of error and bound
   double bound = 0;
-  std::function<void(const kernels::KernelTable&, const Arrays&)> run;
+  std::function<void(const KernelTable&, const Arrays&)> run;
   /// Makes a target ready to be added to; empty where none is. Called before results are evaluated.
   std::function<void(const Arrays&)> clear;
   /// Typical values of one lane, [planes][rows].

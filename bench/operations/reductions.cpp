@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/spectra/named_spectra.hpp>
@@ -13,8 +12,6 @@
 
 namespace spectile::measure {
 namespace {
-
-using kernels::KernelTable;
 
 Operation& spectrum_operation(std::vector<Operation>& to, std::string name, std::size_t planes,
                               std::size_t bands) {

@@ -12,7 +12,6 @@
 namespace spectile::measure {
 namespace {
 
-using kernels::KernelTable;
 using kernels::kLanes;
 using kernels::SigmoidTable;
 

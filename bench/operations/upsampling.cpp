@@ -17,7 +17,6 @@
 namespace spectile::measure {
 namespace {
 
-using kernels::KernelTable;
 using kernels::kLanes;
 using kernels::kSmitsRow;
 

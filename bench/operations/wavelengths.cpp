@@ -17,7 +17,6 @@ namespace spectile::measure {
 namespace {
 
 using kernels::EvenTable;
-using kernels::KernelTable;
 
 constexpr float kFirstNm = 360;
 constexpr std::int32_t kIntervals = 470;  // to 830 nm
@@ -96,8 +95,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
       const auto found = at_wavelength(*pairs, lambda);
       sum += found[0] * (v[i] / density);
       magnitudes += found[1] * std::abs(v[i] / density);
-      // A ratio beyond float's range is an infinity, and times 0 no number: out
-      // of the bound's domain.
+      // A ratio beyond float's range is an infinity, and times 0 no number: out of the bound's domain.
       if (std::abs(v[i] / density) > 0x1p127) magnitudes = std::numeric_limits<double>::max();
     }
     for (std::size_t c = 0; c < 3; ++c) {

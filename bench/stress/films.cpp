@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <spectile/film/film.hpp>
 
 #include "bench/operations/operation.hpp"

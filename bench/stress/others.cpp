@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <spectile/color/color_difference.hpp>
 #include <spectile/color/rgb_space.hpp>
 #include <spectile/spectra/measured_spectrum.hpp>
