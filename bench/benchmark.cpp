@@ -10,9 +10,8 @@
 #include <spectile/isa.hpp>
 
 #include "bench/baseline/film_orders.hpp"
-#include "bench/limits/machine.hpp"
+#include "bench/limits/limits.hpp"
 #include "bench/methods/methods.hpp"
-#include "bench/methods/representations.hpp"
 #include "bench/operations/operation_speeds.hpp"
 #include "bench/stress/stress.hpp"
 #include "src/base/errors.hpp"

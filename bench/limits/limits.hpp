@@ -10,6 +10,9 @@
 
 namespace spectile::measure {
 
+/// The system's own description; names are "unknown" and sizes 0 where it does not.
+BenchmarkMachine describe_machine();
+
 /// Lower bounds of an item's cost.
 struct Cost {
   double read_bytes = 0;

@@ -1,6 +1,4 @@
 // Description of the machine: processor, caches, system, compiler.
-#include "bench/limits/machine.hpp"
-
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -9,6 +7,7 @@
 #include <fstream>
 #include <spectile/isa.hpp>
 
+#include "bench/limits/limits.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile::measure {

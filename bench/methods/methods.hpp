@@ -69,4 +69,10 @@ void mark_frontier(std::vector<MethodSpeed>& methods);
 /// Which to take, in words, for each job and light.
 std::vector<BenchmarkAdvice> advice_on(const std::vector<MethodSpeed>& methods);
 
+/// Paths of 1 to 5 reflectances drawn at random, under the scene's light: three numbers, 30 and 60 even
+/// bands, planned bands, and 60 bands of sigmoids made of the reflectances' RGB. Errors: as those that make
+/// them.
+Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& scene,
+                                                                 const TimingBudget& timing);
+
 }  // namespace spectile::measure

@@ -1,12 +1,11 @@
 // Representations of light and materials side by side, in scenes of some bounces.
-#include "bench/methods/representations.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <random>
 #include <spectile/upsampling/upsample.hpp>
 
+#include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
 #include "src/spectra/band_weights.hpp"
 
