@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
-#include <new>
 #include <spectile/float_buffer.hpp>
 #include <vector>
 

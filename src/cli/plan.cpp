@@ -1,9 +1,7 @@
 // spectile plan: chooses the few wavelengths or bands that a scene needs.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 

@@ -1,7 +1,5 @@
 // Film::add: checks of a batch, and its way chunk by chunk through weighing and placing to the tiles.
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <limits>
 #include <mutex>
 

@@ -1,7 +1,5 @@
 // FilmDevelopment: pictures from the exact sums, tile by tile.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "src/base/out_of_memory.hpp"

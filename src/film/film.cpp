@@ -1,6 +1,5 @@
 // Film: making, merging and comparing films.
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 #include <shared_mutex>
 #include <spectile/film/film.hpp>

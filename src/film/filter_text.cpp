@@ -1,6 +1,5 @@
 // Pixel filters by their parameters, and from and to text.
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <spectile/film/pixel_filter.hpp>
 #include <vector>
@@ -36,9 +35,8 @@ std::string_view quoted(std::string_view text) {
 }
 
 Result<double> number(std::string_view whole, std::string_view text, const Shape& shape) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value)) return value;
+  const auto value = parse_number<double>(text);
+  if (value && std::isfinite(*value)) return *value;
   return make_error(ErrorCode::kBadArgument, "filter \"{}\": \"{}\" is not a finite number; use {}",
                     quoted(whole), quoted(text), shape.form);
 }

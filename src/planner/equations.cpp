@@ -1,7 +1,6 @@
 // The normal equations of a plan's unknowns.
 #include "src/planner/equations.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace spectile::plan {

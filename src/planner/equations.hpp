@@ -1,8 +1,6 @@
 // The normal equations of a plan's unknowns.
 #pragma once
 
-#include <vector>
-
 #include "src/planner/problem.hpp"
 
 namespace spectile::plan {

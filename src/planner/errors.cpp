@@ -1,7 +1,6 @@
 // Errors of plans and of even bands.
 #include "src/base/errors.hpp"
 
-#include <cmath>
 #include <spectile/plan/plan.hpp>
 
 #include "src/planner/problem.hpp"

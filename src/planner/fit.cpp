@@ -1,7 +1,6 @@
 // Fitting a plan: wavelengths, widths, sensor weights and emission values such that colour differences are
 // minimal.
 #include <algorithm>
-#include <cmath>
 
 #include "src/planner/equations.hpp"
 

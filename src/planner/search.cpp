@@ -1,7 +1,6 @@
 // Wavelengths by exchange: greedily at first, then each in turn goes where the sum of squared colour
 // differences, with the best weights for every light, becomes least.
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "src/planner/problem.hpp"

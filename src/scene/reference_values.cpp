@@ -3,7 +3,6 @@
 #include "src/scene/reference_values.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <variant>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <new>
 #include <spectile/scene/procedural_scene.hpp>
 
 #include "src/base/out_of_memory.hpp"

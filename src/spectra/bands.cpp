@@ -1,5 +1,4 @@
 // Construction, validation and text forms of Bands.
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <spectile/spectra/bands.hpp>
@@ -23,10 +22,7 @@ std::vector<Band> uniform_list(double first_nm, double step_nm, std::size_t coun
 std::optional<double> to_number(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return parse_number<double>(text);
 }
 
 }  // namespace

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <spectile/spectra/named_spectra.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/base/text.hpp"
 #include "src/data/tables.hpp"
 
 namespace spectile {
@@ -132,18 +132,22 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+template <class Kind>
+Result<Spectrum> widened(Result<Kind> result) {
+  if (!result) return result.error();
+  return Spectrum(*std::move(result));
+}
+
 Result<Spectrum> named_table(const Entry& e) {
   if (e.step_nm == 1) {
-    SPECTILE_ASSIGN(auto dense, DenselySampledSpectrum::from_values(static_cast<int>(e.first_nm),
-                                                                    {e.values.begin(), e.values.end()}));
-    return Spectrum(std::move(dense));
+    return widened(DenselySampledSpectrum::from_values(static_cast<int>(e.first_nm),
+                                                       {e.values.begin(), e.values.end()}));
   }
   std::vector<double> wavelengths(e.wavelengths_nm.begin(), e.wavelengths_nm.end());
   for (std::size_t i = wavelengths.size(); i < e.values.size(); ++i) {
     wavelengths.push_back(e.first_nm + static_cast<double>(i) * e.step_nm);
   }
-  SPECTILE_ASSIGN(auto linear, PiecewiseLinearSpectrum::from_samples(wavelengths, e.values));
-  return Spectrum(std::move(linear));
+  return widened(PiecewiseLinearSpectrum::from_samples(wavelengths, e.values));
 }
 
 /// How many letters must be put in, taken out or exchanged to make `b` of `a`.
@@ -225,19 +229,14 @@ std::optional<Result<Spectrum>> formula(std::string_view text) {
   const std::string word = lower(text.substr(0, colon));
   if (word != "blackbody" && word != "daylight" && word != "constant") return std::nullopt;
   const std::string_view number = text.substr(colon + 1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value)) {
+  const auto value = parse_number<double>(number);
+  if (!value || !std::isfinite(*value)) {
     return make_error(ErrorCode::kBadArgument, "{}: \"{}\" is not a finite number{}", word,
                       number.substr(0, kLongestName), word == "constant" ? "" : " of kelvin");
   }
-  const auto widened = [](auto result) -> Result<Spectrum> {
-    if (!result) return result.error();
-    return Spectrum(*std::move(result));
-  };
-  if (word == "constant") return Spectrum(ConstantSpectrum(value));
-  if (word == "daylight") return widened(daylight_spectrum(value));
-  return widened(BlackbodySpectrum::create(value, BlackbodySpectrum::Scale::kNormalized));
+  if (word == "constant") return Spectrum(ConstantSpectrum(*value));
+  if (word == "daylight") return widened(daylight_spectrum(*value));
+  return widened(BlackbodySpectrum::create(*value, BlackbodySpectrum::Scale::kNormalized));
 }
 
 }  // namespace

@@ -49,21 +49,8 @@ std::optional<std::array<int, 2>> parse_pixel(std::string_view text) {
 }
 
 Result<std::vector<double>> parse_weights(std::string_view text) {
-  std::vector<double> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (bool more = true; more;) {
-    double value = 0;
-    const auto [after, code] = std::from_chars(at, end, value);
-    if (code != std::errc() || (after != end && *after != ',')) {
-      return Error{ErrorCode::kBadArgument,
-                   fmt::format("--weights \"{}\" are not numbers between commas", text)};
-    }
-    out.push_back(value);
-    more = after != end;
-    at = more ? after + 1 : end;
-  }
-  return out;
+  if (auto numbers = parse_numbers<double>(text, ',')) return *std::move(numbers);
+  return Error{ErrorCode::kBadArgument, fmt::format("--weights \"{}\" are not numbers between commas", text)};
 }
 
 }  // namespace spectile::cli

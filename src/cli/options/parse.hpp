@@ -9,6 +9,7 @@
 #include <spectile/result.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spectile::cli {
@@ -35,22 +36,26 @@ std::optional<std::array<int, 2>> parse_pixel(std::string_view text);
 /// Numbers separated by commas. Errors: kBadArgument with the text quoted.
 Result<std::vector<double>> parse_weights(std::string_view text);
 
+/// Numbers separated by `separator`; nothing for other texts.
+template <class T>
+std::optional<std::vector<T>> parse_numbers(std::string_view text, char separator) {
+  std::vector<T> out;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data();; ++at) {
+    T value{};
+    const auto [after, code] = std::from_chars(at, end, value);
+    if (code != std::errc() || (after != end && *after != separator)) return {};
+    out.push_back(value);
+    if (after == end) return out;
+    at = after;
+  }
+}
+
 /// `count` integers separated by `separator`; nothing for other texts.
 template <class T>
 std::optional<std::vector<T>> parse_integers(std::string_view text, char separator, std::size_t count) {
-  std::vector<T> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (out.size() < count) {
-    T value{};
-    const auto [after, code] = std::from_chars(at, end, value);
-    if (code != std::errc()) return {};
-    out.push_back(value);
-    const bool last = out.size() == count;
-    if (last ? after != end : after == end || *after != separator) return {};
-    at = last ? end : after + 1;
-  }
-  return out;
+  auto out = parse_numbers<T>(text, separator);
+  return out && out->size() == count ? std::move(out) : std::nullopt;
 }
 
 }  // namespace spectile::cli

@@ -5,7 +5,6 @@
 #include <mutex>
 #include <optional>
 #include <spectile/result.hpp>
-#include <string>
 #include <vector>
 
 #include "kernels/abi.hpp"

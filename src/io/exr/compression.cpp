@@ -1,10 +1,10 @@
 // Traits of OpenEXR's compression methods.
 #include "src/io/exr/compression.hpp"
 
-#include <charconv>
 #include <iterator>
 
 #include "src/base/errors.hpp"
+#include "src/base/text.hpp"
 
 namespace spectile {
 namespace {
@@ -43,10 +43,8 @@ Result<Compression> Compression::parse(std::string_view text) {
     out.kind = method.kind;
     if (!io::is_zip(out.kind)) out.level = -1;
     if (colon == std::string_view::npos) return out;
-    const std::string_view level = text.substr(colon + 1);
-    const auto [end, error] = std::from_chars(level.data(), level.data() + level.size(), out.level);
-    const bool number = error == std::errc{} && end == level.data() + level.size();
-    if (!number || out.level < 1 || out.level > method.max_level) {
+    out.level = parse_number<int>(text.substr(colon + 1)).value_or(0);
+    if (out.level < 1 || out.level > method.max_level) {
       return make_error(
           ErrorCode::kBadArgument,
           "compression \"{}\": zip and zips take a level of 1 to 9, dwaa and dwab one of 1 to 500, the "

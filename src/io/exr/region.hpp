@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <spectile/result.hpp>
 #include <string>
 #include <vector>

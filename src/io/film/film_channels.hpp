@@ -1,9 +1,7 @@
 // A film's limbs as channels of unsigned integers, and its options as attributes.
 #pragma once
 
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "src/film/state.hpp"

@@ -61,34 +61,28 @@ class PictureJob : public io::MemoryJob {
 
 std::vector<io::ChannelSpec> channels_of(const Film& film, FilmLayer layer, SampleType pixel) {
   std::vector<io::ChannelSpec> out;
-  const SampleType type = pixel;
-  const auto add = [&](std::initializer_list<const char*> names) {
-    for (const char* name : names) out.push_back({name, type});
+  const auto named = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) out.push_back({name, pixel});
+    return out;
   };
   switch (layer) {
     case FilmLayer::kXyz:
-      add({"X", "Y", "Z"});
-      break;
+      return named({"X", "Y", "Z"});
     case FilmLayer::kSrgb:
     case FilmLayer::kSensor:
-      add({"R", "G", "B"});
-      break;
+      return named({"R", "G", "B"});
     case FilmLayer::kLuminance:
-      add({"Y"});
-      break;
-    case FilmLayer::kSpectrum:
-      io::add_band_channels(out, film.options().bands, Quantity::kIlluminant, pixel);
-      break;
+      return named({"Y"});
     case FilmLayer::kWeight:
-      add({"weight"});
-      break;
+      return named({"weight"});
     case FilmLayer::kCount:
-      add({"count"});
-      break;
+      return named({"count"});
     case FilmLayer::kVariance:
-      add({"variance"});
+      return named({"variance"});
+    case FilmLayer::kSpectrum:
       break;
   }
+  io::add_band_channels(out, film.options().bands, Quantity::kIlluminant, pixel);
   return out;
 }
 

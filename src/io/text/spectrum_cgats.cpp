@@ -63,13 +63,11 @@ class Reader {
     for (std::size_t i = 0; i < file_.lines.size() && part_ != Part::kEnd; ++i) {
       SPECTILE_TRY(line(file_.lines[i], i + 1));
     }
-    if (part_ == Part::kFormat) {
-      return line_error(file_, file_.lines.size(), "the file ends without END_DATA_FORMAT");
-    }
-    if (part_ == Part::kData) return line_error(file_, file_.lines.size(), "the file ends without END_DATA");
-    if (part_ == Part::kHead)
-      return line_error(file_, file_.lines.size(), "the file ends without BEGIN_DATA");
-    return std::move(table_);
+    if (part_ == Part::kEnd) return std::move(table_);
+    const char* const missing = part_ == Part::kFormat ? "END_DATA_FORMAT"
+                                : part_ == Part::kData ? "END_DATA"
+                                                       : "BEGIN_DATA";
+    return line_error(file_, file_.lines.size(), fmt::format("the file ends without {}", missing));
   }
 
  private:

@@ -7,7 +7,6 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -110,10 +109,7 @@ std::string quoted(std::string_view text) {
 
 std::optional<double> number_in(std::string_view word) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  return parse_number<double>(word);
 }
 
 Result<SampleLines> read_columns(const TextFile& file) {

@@ -172,9 +172,7 @@ Result<void> SpectralTexture::Image::evaluate(const PixelWindow& region, Sampled
     SPECTILE_ASSIGN(auto strip, io::make_strip(planes, width(), first, lines));
     SPECTILE_TRY(read(planes, *strip));
     // Lines write different lanes. Some thousands of pixels are worth a thread's while.
-    Execution execution;
-    execution.threads = threads_;
-    execution.tile_lanes = kLanesPerBlock * std::max<std::size_t>(1, 4096 / w);
+    const Execution execution = {threads_, kLanesPerBlock * std::max<std::size_t>(1, 4096 / w)};
     tiles::for_blocks(static_cast<std::size_t>(lines), execution, [&](std::size_t begin, std::size_t count) {
       for (std::size_t line = begin; line < begin + count; ++line) {
         const io::Piece piece = {*strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x0),

@@ -3,7 +3,6 @@
 #include "src/io/convert/frame/area_filter.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "src/reference/half.hpp"
 

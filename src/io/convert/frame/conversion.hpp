@@ -1,9 +1,7 @@
 // Conversion: the streaming frame common to every image-to-image job.
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

@@ -2,7 +2,6 @@
 #include "src/io/convert/frame/mip_levels.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "src/base/errors.hpp"

@@ -69,7 +69,6 @@ std::string to_text(const PixelWindow& w) {
   return fmt::format("{},{},{},{}", w.x0, w.y0, std::int64_t{w.x1} - 1, std::int64_t{w.y1} - 1);
 }
 
-constexpr EnumName<Observer> kObservers[] = {{Observer::kCie1931, "1931"}, {Observer::kCie1964, "1964"}};
 constexpr EnumName<ColorTarget> kTargets[] = {
     {ColorTarget::kSrgb, "srgb"}, {ColorTarget::kXyz, "xyz"}, {ColorTarget::kLuminance, "luminance"}};
 constexpr EnumName<Adaptation> kAdaptations[] = {
@@ -113,7 +112,7 @@ class Line {
     add("quantity", to_string(options.quantity));
     add("bands", to_text(options.bands));
     add("white", options.light ? quoted(options.light->name) + to_text(options.light->spectrum) : "D65");
-    add("white-observer", enum_name(kObservers, options.observer));
+    add("white-observer", to_string(options.observer));
     add("input-space", options.input_space ? to_text(*options.input_space) : "of the file");
     add("negative", enum_name(kNegatives, options.negative));
     add("out-of-gamut",
@@ -155,7 +154,7 @@ std::string settings_text(const RelightImageOptions& options) {
   line.add(options);
   line.add("under", quoted(options.under.name) + to_text(options.under.spectrum));
   line.add("to", enum_name(kTargets, options.target));
-  line.add("observer", enum_name(kObservers, options.seen_by));
+  line.add("observer", to_string(options.seen_by));
   line.add("adapt", enum_name(kAdaptations, options.adaptation));
   line.add("way", options.mode == RelightMode::kSpectra ? "spectra" : "direct");
   return std::move(line).text();
@@ -165,7 +164,7 @@ std::string settings_text(const ProjectImageOptions& options) {
   Line line("project");
   line.add(options);
   line.add("to", enum_name(kTargets, options.target));
-  line.add("observer", enum_name(kObservers, options.observer));
+  line.add("observer", to_string(options.observer));
   line.add("illuminant", options.light ? to_text(*options.light) : "D65");
   line.add("quantity", options.quantity ? to_string(*options.quantity) : "of the file");
   line.add("adapt", enum_name(kAdaptations, options.adaptation));

@@ -103,10 +103,7 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
     SPECTILE_ASSIGN(auto strip, io::make_strip(planes, info.width, first, lines));
     SPECTILE_TRY(io::fill_strip(*input, part, planes, *strip));
     // Channels side by side over the threads; each has its own counts.
-    Execution execution;
-    execution.threads = threads;
-    execution.tile_lanes = kLanesPerBlock;
-    tiles::for_blocks(planes.size(), execution, [&](std::size_t plane, std::size_t) {
+    tiles::for_blocks(planes.size(), {threads, kLanesPerBlock}, [&](std::size_t plane, std::size_t) {
       for (int line = first; line < first + lines; ++line) {
         count_line(*strip, plane, planes[plane].type, line, static_cast<std::size_t>(info.width),
                    info.channels[plane]);

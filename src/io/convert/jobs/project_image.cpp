@@ -1,6 +1,5 @@
 // project_image: a spectral image becomes sRGB, XYZ or luminance, line by line.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <spectile/image/image.hpp>
 #include <spectile/image/settings.hpp>

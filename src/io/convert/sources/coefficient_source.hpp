@@ -1,11 +1,8 @@
 // CoefficientSource: an open image of a method's coefficients, the method, and what else passes through.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <spectile/upsampling/upsample.hpp>
-#include <string>
-#include <vector>
 
 #include "src/io/convert/sources/image_source.hpp"
 

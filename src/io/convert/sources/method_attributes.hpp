@@ -3,7 +3,6 @@
 
 #include <spectile/image/image.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "src/io/exr/exr_writer.hpp"

@@ -3,8 +3,6 @@
 
 #include <spectile/spectra/bands.hpp>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "src/io/exr/attributes.hpp"
 #include "src/io/exr/exr_writer.hpp"

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <spectile/image/image.hpp>
-#include <string>
 #include <vector>
 
 #include "kernels/abi.hpp"

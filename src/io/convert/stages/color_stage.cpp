@@ -1,7 +1,6 @@
 // ColorStage: from an image's samples to the RGB of a method, with every check on the way.
 #include "src/io/convert/stages/color_stage.hpp"
 
-#include "src/base/errors.hpp"
 #include "src/color/color_matrix.hpp"
 #include "src/io/convert/sources/color_space.hpp"
 #include "src/upsampling/method_rows.hpp"
