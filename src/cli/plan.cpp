@@ -218,11 +218,9 @@ void add_plan(CLI::App& app, int& exit) {
   option("--folds", a->folds, "N", kBandsGroup, "Folds of the cross-validation; 0: none, which is quicker")
       ->check(CLI::Range(0, 1000).description(""))
       ->capture_default_str();
-  add_common(
-      *command, a->common,
-      std::string(
-          "spectile plan --illuminant D65 --texture wood.exr --bands 7 --sample bands -o plan.json\n") +
-          kSpectrumHelp);
+  add_common(*command, a->common,
+             "spectile plan --illuminant D65 --texture wood.exr --bands 7 --sample bands -o plan.json\n" +
+                 kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -45,8 +45,7 @@ void add_project(CLI::App& app, int& exit) {
                 "reflectance or illuminant, where a file holds both");
   a->image.add_options(
       *command, "float",
-      std::string("spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n") +
-          kSpectrumHelp);
+      "spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n" + kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -49,8 +49,7 @@ void add_relight(CLI::App& app, int& exit) {
   add_method_options(*command, a->method);
   a->image.add_options(
       *command, "half",
-      std::string("spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n") +
-          kSpectrumHelp);
+      "spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n" + kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -44,8 +44,7 @@ void add_upsample(CLI::App& app, int& exit) {
                 "spectra: a channel per band; coefficients: for spectile expand");
   a->image.add_options(
       *command, "half",
-      std::string("spectile upsample wood.exr -o wood-s.exr --method sigmoid --bands 380:780:5\n") +
-          kSpectrumHelp);
+      "spectile upsample wood.exr -o wood-s.exr --method sigmoid --bands 380:780:5\n" + kSpectrumHelp);
   option.flag("--no-skip", a->no_skip, kRunGroup,
               "Compute black, constant and repeated parts too; same bytes");
   option.flag("--stats", a->image.common.stats, kRunGroup, "Print what was skipped");

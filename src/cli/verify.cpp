@@ -58,7 +58,7 @@ void add_verify(CLI::App& app, int& exit) {
       app, "verify", "Compare kernels, scalar reference and double oracle on every pixel", run, exit);
   command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->type_name("FILE")->required();
   add_method_options(*command, a->method);
-  add_common(*command, a->common, std::string("spectile verify wood.exr --method sigmoid\n") + kSpectrumHelp);
+  add_common(*command, a->common, "spectile verify wood.exr --method sigmoid\n" + kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -73,7 +73,7 @@ CLI::Option* add_observer_option(CLI::App& command, Observer& observer, const ch
 void add_target_options(CLI::App& command, ColorTarget& target, Adaptation& adaptation);
 
 /// "SPECTRUM: name, blackbody:KELVIN, ..." for the end of a help text.
-inline constexpr const char* kSpectrumHelp =
+inline const std::string kSpectrumHelp =
     "SPECTRUM: a name (see spectile spectra), blackbody:KELVIN, daylight:KELVIN, or a file (CSV, CGATS).";
 
 }  // namespace spectile::cli

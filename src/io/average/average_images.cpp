@@ -171,19 +171,15 @@ class AverageJob : public io::LineJob {
   void store(Work& work, SampleType type, std::byte* out) {
     const std::size_t width = work.averages.size();
     float* const floats = work.floats.data();
-    if (type == SampleType::kFloat) {
-      for (std::size_t x = 0; x < width; ++x) floats[x] = static_cast<float>(work.averages[x]);
-      std::memcpy(out, floats, width * sizeof(float));
-      return;
-    }
+    const bool half = type != SampleType::kFloat;
     for (std::size_t x = 0; x < width; ++x) {
+      floats[x] = static_cast<float>(work.averages[x]);
+      if (!half) continue;
       const float value = exact::to_odd_float(work.averages[x]);
       if (std::fabs(value) > kernels::kHalfMax) work.clamped[x] = 1;
       floats[x] = std::clamp(value, -kernels::kHalfMax, kernels::kHalfMax);
     }
-    auto* const halves = reinterpret_cast<std::uint16_t*>(work.halves.data());
-    kernels_.float_to_half(halves, floats, work.floats.size());
-    std::memcpy(out, halves, width * sizeof(std::uint16_t));
+    io::store_row(kernels_, floats, width, type, work.halves.data(), out);
   }
 
   io::AverageInputs& inputs_;

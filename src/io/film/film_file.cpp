@@ -12,6 +12,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/film/pixel.hpp"
 #include "src/io/convert/frame/output.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/film/film_channels.hpp"
 #include "src/lanes/tiles.hpp"
 
@@ -108,10 +109,8 @@ class SaveJob : public io::MemoryJob {
     const auto width = static_cast<std::size_t>(window_.width());
     for (std::size_t c = 0; c < kPreviewChannels; ++c) {
       float* const values = preview_row(slot, c);
-      auto* const halves = reinterpret_cast<std::uint16_t*>(preview_row(slot, kPreviewChannels));
-      kernels_.float_to_half(halves, values, padded());
-      std::memcpy(packed + writer().channel_offset(2 * limbs_.size() + c), halves,
-                  width * sizeof(std::uint16_t));
+      io::store_row(kernels_, values, width, SampleType::kHalf, preview_row(slot, kPreviewChannels),
+                    packed + writer().channel_offset(2 * limbs_.size() + c));
       std::fill_n(values, width, 0.0F);
     }
   }

@@ -1,11 +1,12 @@
 // write_developed, write_scene: a layer of a film, or the exact values of a scene, as an image.
-#include <cstring>
+#include <cmath>
 #include <spectile/image/film_file.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/stages/band_channels.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -31,29 +32,24 @@ class PictureJob : public io::MemoryJob {
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& stats) override {
     const std::size_t width = picture_.width;
+    const bool half = pixel_ != SampleType::kFloat;
     float* const work = row(slot);
-    auto* const halves = reinterpret_cast<std::uint16_t*>(work + padded());
     for (std::size_t p = 0; p < picture_.planes; ++p) {
       const float* const from =
           picture_.data + p * picture_.plane_floats + static_cast<std::size_t>(line) * width;
-      if (pixel_ == SampleType::kFloat) {
-        if (packed != nullptr) std::memcpy(packed + writer().channel_offset(p), from, width * sizeof(float));
-        continue;
-      }
-      for (std::size_t x = 0; x < width; ++x) {
+      for (std::size_t x = 0; half && x < width; ++x) {
         // Beyond the largest half: written as that, and counted. Infinite variance stays what it is.
         const bool beyond = std::abs(from[x]) > kernels::kHalfMax && std::abs(from[x]) < INFINITY;
         work[x] = beyond ? std::copysign(kernels::kHalfMax, from[x]) : from[x];
         stats.clamped += beyond ? 1 : 0;
       }
       if (packed == nullptr) continue;
-      kernels_.float_to_half(halves, work, padded());
-      std::memcpy(packed + writer().channel_offset(p), halves, width * sizeof(std::uint16_t));
+      io::store_row(kernels_, half ? work : from, width, pixel_, work + blocks_for(width) * kLanesPerBlock,
+                    packed + writer().channel_offset(p));
     }
   }
 
  private:
-  std::size_t padded() const { return blocks_for(picture_.width) * kLanesPerBlock; }
   Picture picture_;
   SampleType pixel_;
   const kernels::KernelTable& kernels_;

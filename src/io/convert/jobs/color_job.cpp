@@ -74,7 +74,7 @@ std::uint64_t ColorJob::pack_colors(Work& work, std::size_t width, std::byte* pa
   const bool half = options_.pixel == SampleType::kHalf;
   const std::uint64_t clamped = half ? clamp_to_half(kernels_, work.color, colors_, width) : 0;
   for (std::size_t k = 0; k < colors_; ++k) {
-    store_row(kernels_, work.color, k, width, options_.pixel, work.halves,
+    store_row(kernels_, work.color.rows[k], width, options_.pixel, work.halves.data(),
               packed + writer_->channel_offset(k, width));
   }
   return clamped;

@@ -7,7 +7,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/rgb_source.hpp"
-#include "src/io/convert/stages/lines.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -40,7 +40,7 @@ Result<RgbImage> read(const std::string& path, const std::string& layer, int thr
 class RgbJob : public io::MemoryJob {
  public:
   RgbJob(ColorView rgb, int width, SampleType pixel, const kernels::KernelTable& kernels)
-      : MemoryJob(2 * padded(width)),
+      : MemoryJob(2 * padded(static_cast<std::size_t>(width))),
         rgb_(rgb),
         width_(static_cast<std::size_t>(width)),
         pixel_(pixel),
@@ -49,25 +49,16 @@ class RgbJob : public io::MemoryJob {
   void line(std::size_t slot, const io::Strip& /*strip*/, int line, std::byte* packed,
             io::LineStats& /*stats*/) override {
     if (packed == nullptr) return;
-    auto* const halves = reinterpret_cast<std::uint16_t*>(row(slot) + padded());
     for (std::size_t k = 0; k < 3; ++k) {
-      const float* in = rgb_.c[k] + static_cast<std::size_t>(line) * width_;
-      std::byte* const out = packed + writer().channel_offset(k);
-      if (pixel_ == SampleType::kFloat) {
-        std::memcpy(out, in, width_ * sizeof(float));
-        continue;
-      }
+      const float* const in = rgb_.c[k] + static_cast<std::size_t>(line) * width_;
       std::memcpy(row(slot), in, width_ * sizeof(float));
-      kernels_.float_to_half(halves, row(slot), padded());
-      std::memcpy(out, halves, width_ * sizeof(std::uint16_t));
+      io::store_row(kernels_, row(slot), width_, pixel_, row(slot) + padded(width_),
+                    packed + writer().channel_offset(k));
     }
   }
 
  private:
-  static std::size_t padded(int width) {
-    return blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
-  }
-  std::size_t padded() const { return blocks_for(width_) * kLanesPerBlock; }
+  static std::size_t padded(std::size_t width) { return blocks_for(width) * kLanesPerBlock; }
   ColorView rgb_;
   std::size_t width_;
   SampleType pixel_;

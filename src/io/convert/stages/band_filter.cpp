@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "src/base/errors.hpp"
+#include "src/io/convert/stages/color_rows.hpp"
 
 namespace spectile::io {
 namespace {
@@ -135,15 +136,12 @@ void BandFilter::pack(Work& work, BandPacker::Work& bands, const Averages& from,
 }
 
 void BandFilter::store(Work& work, const float* row, std::size_t width, std::byte* out) const {
-  if (options_.pixel == SampleType::kFloat) {
-    std::memcpy(out, row, width * sizeof(float));
-    return;
+  if (options_.pixel != SampleType::kFloat) {
+    const std::size_t padded = blocks_for(width) * kLanesPerBlock;
+    kernels_.clamp(work.row.data(), row, -kernels::kHalfMax, kernels::kHalfMax, padded);
+    row = work.row.data();
   }
-  const std::size_t padded = blocks_for(width) * kLanesPerBlock;
-  auto* const halves = reinterpret_cast<std::uint16_t*>(work.halves.data());
-  kernels_.clamp(work.row.data(), row, -kernels::kHalfMax, kernels::kHalfMax, padded);
-  kernels_.float_to_half(halves, work.row.data(), padded);
-  std::memcpy(out, halves, width * sizeof(std::uint16_t));
+  store_row(kernels_, row, width, options_.pixel, work.halves.data(), out);
 }
 
 }  // namespace spectile::io

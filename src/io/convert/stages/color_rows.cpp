@@ -36,14 +36,14 @@ std::uint64_t clamp_to_half(const kernels::KernelTable& kernels, const ColorLine
   return clamped;
 }
 
-void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
-               SampleType type, FloatBuffer& halves, std::byte* out) {
+void store_row(const kernels::KernelTable& kernels, const float* row, std::size_t width, SampleType type,
+               float* halves, std::byte* out) {
   if (type == SampleType::kFloat) {
-    std::memcpy(out, line.rows[row], width * sizeof(float));
+    std::memcpy(out, row, width * sizeof(float));
     return;
   }
-  auto* const packed = reinterpret_cast<std::uint16_t*>(halves.data());
-  kernels.float_to_half(packed, line.rows[row], line.padded);
+  auto* const packed = reinterpret_cast<std::uint16_t*>(halves);
+  kernels.float_to_half(packed, row, blocks_for(width) * kLanesPerBlock);
   std::memcpy(out, packed, width * sizeof(std::uint16_t));
 }
 

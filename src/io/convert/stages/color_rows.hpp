@@ -20,9 +20,10 @@ std::vector<const char*> color_channels(ColorTarget target);
 std::uint64_t clamp_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
                             std::size_t width);
 
-/// Packs a row at `out`, as floats or halves; `halves` is work space of at least half the padded width.
-void store_row(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t row, std::size_t width,
-               SampleType type, FloatBuffer& halves, std::byte* out);
+/// Packs a row, readable up to whole blocks of lanes, at `out` as floats or halves. `halves`: work space of
+/// half the padded width.
+void store_row(const kernels::KernelTable& kernels, const float* row, std::size_t width, SampleType type,
+               float* halves, std::byte* out);
 
 /// Takes a line of a strip of floats, from plane `first` on, into the first `count` rows.
 void load_colors(const Strip& strip, int line, std::size_t first, std::size_t count, ColorLine& to);
