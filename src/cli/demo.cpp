@@ -46,14 +46,14 @@ std::array<double, 3> chart_color(int x, int y) {
   return {(corner & 4) != 0 ? 1.0 : 0.0, (corner & 2) != 0 ? 1.0 : 0.0, (corner & 1) != 0 ? 1.0 : 0.0};
 }
 
-Result<ColorLanes> make_chart() {
-  auto chart = ColorLanes::create(std::size_t{kWidth} * kHeight);
-  if (!chart) return chart;
+/// Throws: Stop.
+ColorLanes make_chart() {
+  ColorLanes chart = take(ColorLanes::create(std::size_t{kWidth} * kHeight));
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const auto color = chart_color(x, y);
       const auto lane = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
-      for (std::size_t k = 0; k < 3; ++k) chart->at(lane, k) = static_cast<float>(color[k]);
+      for (std::size_t k = 0; k < 3; ++k) chart.at(lane, k) = static_cast<float>(color[k]);
     }
   }
   return chart;
@@ -87,7 +87,7 @@ int run(const Arguments& a) {
   const std::string spectral_path = (folder / "chart-spectral.exr").string();
   const std::string back_path = (folder / "chart-back.exr").string();
 
-  const ColorLanes chart = take(make_chart());
+  const ColorLanes chart = make_chart();
   const ProgressFunction go_on = [](const Progress&) { return !interrupted(); };
   ImageOptions plain;
   plain.threads = a.common.threads;

@@ -43,15 +43,14 @@ Result<RgbSpace> rgb_space(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::string known;
   for (const auto& space : kSpaces) {
     if (space.name == lower) {
       return RgbSpace{std::string(space.name), space.description, space.chromaticities,
                       space.relative_to_d65};
     }
-    known += (known.empty() ? "" : ", ") + std::string(space.name);
   }
-  return make_error(ErrorCode::kUnknownName, "colour space \"{}\" is unknown; there are {}", name, known);
+  return make_error(ErrorCode::kUnknownName, "colour space \"{}\" is unknown; there are {}", name,
+                    fmt::join(rgb_space_names(), ", "));
 }
 
 std::vector<std::string> rgb_space_names() {

@@ -14,20 +14,18 @@
 #endif
 
 namespace spectile {
-namespace kernels {
-namespace sse42 {
+namespace kernels::sse42 {
 extern const KernelFamilies families;
 }
-namespace avx2 {
+namespace kernels::avx2 {
 extern const KernelFamilies families;
 }
-namespace avx512 {
+namespace kernels::avx512 {
 extern const KernelFamilies families;
 }
-namespace neon {
+namespace kernels::neon {
 extern const KernelFamilies families;
 }
-}  // namespace kernels
 
 namespace dispatch {
 namespace {
@@ -37,10 +35,8 @@ using kernels::KernelTable;
 #if defined(__x86_64__)
 // F16C; the operating system's part is covered by the test for AVX2 that always goes with it.
 bool has_f16c() {
-  unsigned a = 0;
-  unsigned b = 0;
-  unsigned c = 0;
-  unsigned d = 0;
+  unsigned registers[4] = {};
+  auto& [a, b, c, d] = registers;
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & (1U << 29)) != 0;
 }
 // The compiler's builtins also ask whether the operating system saves the registers (XCR0).
@@ -94,10 +90,7 @@ constexpr Entry kEntries[] = {
 std::atomic<const KernelTable*> override_table{nullptr};
 
 std::string names_here() {
-  std::string names;
-  for (const KernelTable* table : available())
-    names += names.empty() ? table->name : std::string(", ") + table->name;
-  return names;
+  return fmt::format("{}", fmt::join(available_isas(), ", "));
 }
 
 }  // namespace

@@ -20,18 +20,17 @@ const char* observer_name(Observer observer) {
 
 /// Rows of three values and three differences from the tables of each curve.
 Result<FloatBuffer> curve_rows(const ResponseCurves& curves) {
-  auto out = FloatBuffer::create(8 * kRows);
-  if (!out) return out;
-  std::fill_n(out->data(), out->size(), 0.0F);
+  SPECTILE_ASSIGN(auto out, FloatBuffer::create(8 * kRows));
+  std::fill_n(out.data(), out.size(), 0.0F);
   for (std::size_t i = 0; i < kIntervals; ++i) {
-    float* const row = out->data() + 8 * i;
+    float* const row = out.data() + 8 * i;
     for (std::size_t c = 0; c < 3; ++c) {
       const float* const pair = ResponseCurvesAccess::table(curves) + 2 * (c * kIntervals + i);
       row[c] = pair[0];
       row[4 + c] = pair[1];
     }
   }
-  float* const last = out->data() + 8 * kIntervals;
+  float* const last = out.data() + 8 * kIntervals;
   for (std::size_t c = 0; c < 3; ++c) last[c] = (last - 8)[c] + (last - 8)[4 + c];
   return out;
 }

@@ -161,7 +161,6 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
     }
   }
   std::vector<double> out;
-  out.reserve(best.size());
   for (const Eigen::Index c : best) out.push_back(candidate_nm(c));
   std::sort(out.begin(), out.end());
   return out;

@@ -130,8 +130,11 @@ double unit_random(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-template <class Seen>
-SolidAngle by_directions(const Seen& emitter, std::size_t points, std::uint64_t seed) {
+template <class Emitter>
+Result<SolidAngle> by_directions(const Emitter& from, const Receiver& receiver, std::size_t points,
+                                 std::uint64_t seed) {
+  SPECTILE_TRY(check_points(points));
+  SPECTILE_ASSIGN(const auto emitter, seen(from, receiver));
   const double distance = emitter.distance();
   if (!(distance > 0)) return SolidAngle(0);
   // The cone about the bounding sphere; inside that sphere, the hemisphere above the receiver.
@@ -296,16 +299,12 @@ Result<SolidAngle> projected_solid_angle_by_area(const QuadEmitter& emitter, con
 
 Result<SolidAngle> projected_solid_angle_by_directions(const DiskEmitter& emitter, const Receiver& receiver,
                                                        std::size_t points, std::uint64_t seed) {
-  SPECTILE_TRY(check_points(points));
-  SPECTILE_ASSIGN(const auto disk, seen(emitter, receiver));
-  return by_directions(disk, points, seed);
+  return by_directions(emitter, receiver, points, seed);
 }
 
 Result<SolidAngle> projected_solid_angle_by_directions(const QuadEmitter& emitter, const Receiver& receiver,
                                                        std::size_t points, std::uint64_t seed) {
-  SPECTILE_TRY(check_points(points));
-  SPECTILE_ASSIGN(const auto quad, seen(emitter, receiver));
-  return by_directions(quad, points, seed);
+  return by_directions(emitter, receiver, points, seed);
 }
 
 }  // namespace spectile

@@ -181,7 +181,6 @@ constexpr std::array kPictures = {Named{"gradients", gradients}, Named{"edges", 
 
 std::vector<std::string> picture_names() {
   std::vector<std::string> out;
-  out.reserve(kPictures.size());
   for (const Named& n : kPictures) out.emplace_back(n.name);
   return out;
 }

@@ -54,9 +54,8 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
                                                   upsampler.quantity() == Quantity::kIlluminant,
                                                   made.primaries, light, made.observer));
   if (planned) return space.white;
-  auto out = light_samples(light, bands);
-  if (!out) return out;
-  for (double& v : *out) v /= space.luminance;
+  SPECTILE_ASSIGN(auto out, light_samples(light, bands));
+  for (double& v : out) v /= space.luminance;
   return out;
 }
 
@@ -101,27 +100,26 @@ void SampledRows::set_limits() {
 }
 
 Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& bands) {
-  auto out = sized(upsampler, bands.count());
-  if (!out) return out.error();
+  SPECTILE_ASSIGN(auto out, sized(upsampler, bands.count()));
   if (bands == upsampler.bands()) {
-    out->copy(upsampler);
-  } else if (!out->sigmoid_) {
+    out.copy(upsampler);
+  } else if (!out.sigmoid_) {
     SPECTILE_ASSIGN(const auto other,
                     Upsampler::create(upsampler.method(), upsampler.quantity(), bands, upsampler.options()));
-    out->copy(other);
+    out.copy(other);
   } else {
     const UpsamplerOptions& made = upsampler.options();
     const MeasuredSpectrum light = made.light ? *made.light : *illuminant("D65");
     std::vector<double> white(bands.count(), 1.0);
-    if (out->white_) {
+    if (out.white_) {
       SPECTILE_ASSIGN(white, white_in(bands, upsampler, light));
     }
     for (std::size_t b = 0; b < bands.count(); ++b) {
-      out->row(b)[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), bands[b].centre_nm);
-      out->row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
+      out.row(b)[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), bands[b].centre_nm);
+      out.row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
     }
   }
-  out->set_limits();
+  out.set_limits();
   return out;
 }
 

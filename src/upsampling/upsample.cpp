@@ -31,8 +31,7 @@ Result<void> check(const Upsampler& upsampler, const ColorView& in, const Sample
   SPECTILE_TRY(shape::same_bands("the upsampler", upsampler.bands(), spectra.bands));
   SPECTILE_TRY(shape::same_lanes(in.lanes, spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
-  SPECTILE_TRY(shape::aligned(in));
-  return {};
+  return shape::aligned(in);
 }
 
 bool streams(StoreHint hint, const SampledSpectraSpan& spectra) {

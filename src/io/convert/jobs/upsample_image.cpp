@@ -83,9 +83,8 @@ class UpsampleJob : public io::FilteredJob {
   int strip_lines(int chunk_lines) const override { return source_.strip_lines(chunk_lines); }
 
   Result<std::shared_ptr<Strip>> read(int first_line, int lines) override {
-    auto strip = source_.read(first_line, lines);
-    if (!strip) return strip;
-    SPECTILE_ASSIGN(const auto colored, mask_.apply(**strip));
+    SPECTILE_ASSIGN(auto strip, source_.read(first_line, lines));
+    SPECTILE_ASSIGN(const auto colored, mask_.apply(*strip));
     // Mip levels read the lines again.
     if (first_line >= counted_lines_) {
       masked_colored_ += colored;
