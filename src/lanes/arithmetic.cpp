@@ -30,20 +30,20 @@ Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const
   return {};
 }
 
-/// Runs a kernel of one batch, and below of two, with the constants that it takes.
-template <class Kernel, class... Constants>
+/// Runs a kernel of one batch, and below of two, with the parameters that it takes besides.
+template <class Kernel, class... Parameters>
 Result<void> unary(Kernel which, const SampledSpectraView& a, const SampledSpectraSpan& out,
-                   const Execution& execution, Constants... constants) {
+                   const Execution& execution, Parameters... parameters) {
   return element_wise<1>({a}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    (k.*which)(out.data + at, a.data + at, constants..., n);
+    (k.*which)(out.data + at, a.data + at, parameters..., n);
   });
 }
 
-template <class Kernel, class... Constants>
+template <class Kernel, class... Parameters>
 Result<void> binary(Kernel which, const SampledSpectraView& a, const SampledSpectraView& b,
-                    const SampledSpectraSpan& out, const Execution& execution, Constants... constants) {
+                    const SampledSpectraSpan& out, const Execution& execution, Parameters... parameters) {
   return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
-    (k.*which)(out.data + at, a.data + at, b.data + at, constants..., n);
+    (k.*which)(out.data + at, a.data + at, b.data + at, parameters..., n);
   });
 }
 
