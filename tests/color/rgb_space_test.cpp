@@ -225,10 +225,9 @@ TEST(WorkingSpace, WhatSpansNoSpaceIsAnError) {
   EXPECT_EQ(code_of(working_space(Bands(), false, line, *illuminant("D65"), Observer::kCie1931)),
             code(ErrorCode::kBadArgument));
   const MeasuredSpectrum dark = illuminant("D65")->scaled(0);
-  for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
-    EXPECT_EQ(
-        code_of(working_space(Bands(), quantity == Quantity::kIlluminant, kRec709, dark, Observer::kCie1931)),
-        code(ErrorCode::kBadArgument));
+  for (const bool emission : {false, true}) {
+    EXPECT_EQ(code_of(working_space(Bands(), emission, kRec709, dark, Observer::kCie1931)),
+              code(ErrorCode::kBadArgument));
   }
 }
 

@@ -1,5 +1,6 @@
 // Black bodies and sums of Gaussians: values, maxima and integrals against their laws and closed forms.
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <spectile/color/response_curves.hpp>
 #include <spectile/lanes/spectrum_sampler.hpp>
@@ -53,7 +54,8 @@ TEST(BlackbodySpectrum, IntegralsToInfinityFarBeyondThePeakAreWithinTheirBound) 
   const double t = 6500;
   const double lambda = 1e12;
   const double want = 2 * 299792458.0 * 1.380649e-23 * t / 3 / std::pow(lambda * 1e-9, 3);
-  EXPECT_NEAR(BlackbodySpectrum::create(t)->integral(lambda, kInfinity) / want, 1, 1e-6);
+  EXPECT_NEAR(BlackbodySpectrum::create(t)->integral(lambda, std::numeric_limits<double>::infinity()) / want,
+              1, 1e-6);
 }
 
 TEST(BlackbodySpectrum, ValuesFarBelowThePeakAreWithinTheirBound) {
