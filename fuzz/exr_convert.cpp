@@ -41,7 +41,7 @@ void choose(fuzz::Choices& choices, MethodOptions& options) {
   // The last two search for what they need, which takes a hundred times as long as the rest of a case.
   options.method = kMethods[choices.below(choices.one_in(16) ? 5 : 3)];
   options.quantity = static_cast<Quantity>(choices.below(3));
-  options.negative = static_cast<Negative>(choices.below(3));
+  options.negative = static_cast<NegativeInput>(choices.below(3));
 }
 
 /// Invariants of every conversion.
