@@ -204,7 +204,7 @@ TEST_F(Checkpoints, AnInterruptedRunGoesOnToTheSameBits) {
   for (bool finished = false; !finished && runs < 100; ++runs) {
     test::Tool tool(arguments(), {});
     // The first four are ended on the way, the others when they are done.
-    for (int ms = 0; ms < (runs < 4 ? 300 : 60000) && tool.running(); ++ms) {
+    for (int ms = 0; ms < (runs < 4 ? 100 : 60000) && tool.running(); ++ms) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     if (!tool.running()) {

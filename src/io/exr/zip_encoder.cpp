@@ -4,6 +4,7 @@
 #include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <new>
 
@@ -38,7 +39,7 @@ void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept {
 
 ZipEncoder::ZipEncoder(int level) {
   if (level == 1) {
-    work_.resize(ISAL_DEF_LVL1_EXTRA_LARGE);
+    work_.resize(ISAL_DEF_LVL1_DEFAULT);
     return;
   }
   compressor_.reset(libdeflate_alloc_compressor(level));
@@ -49,7 +50,10 @@ std::size_t ZipEncoder::deflate(std::size_t n) {
   auto* const in = reinterpret_cast<std::uint8_t*>(filtered_.data());
   auto* const out = reinterpret_cast<std::uint8_t*>(compressed_.data());
   if (compressor_ != nullptr) return libdeflate_zlib_compress(compressor_.get(), in, n, out, n - 1);
-  isal_zstream stream;
+  // Zeros, here and in the hash table: matches with an earlier chunk's leftovers would make the bytes depend
+  // on it.
+  isal_zstream stream{};
+  std::fill(work_.begin(), work_.end(), std::byte{0});
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = reinterpret_cast<std::uint8_t*>(work_.data());

@@ -132,8 +132,8 @@ Result<double> number_of(const TextFile& file, const Table& table, std::string_v
   const std::optional<double> value = number_in(found->second.text);
   if (!value || !(*value >= least && *value <= most) || (whole && std::trunc(*value) != *value)) {
     return line_error(file, found->second.line,
-                      fmt::format("{} {} is not a {} {} to {}", keyword, quoted(found->second.text),
-                                  whole ? "integer," : "number,", least, most));
+                      fmt::format("{} {} is not {} {} to {}", keyword, quoted(found->second.text),
+                                  whole ? "an integer," : "a number,", least, most));
   }
   return *value;
 }
