@@ -34,7 +34,7 @@ struct Positions {
 };
 
 /// A film and the samples that it is fed with.
-struct State {
+struct FilmState {
   Positions at;
   std::vector<float> radiance;  ///< [band][lane]
   std::optional<Film> film;
@@ -47,7 +47,7 @@ Result<FilmDevelopment> developed(const Film& film) {
   return picture;
 }
 
-std::function<Xyz(std::size_t)> pixel_reader(const std::shared_ptr<State>& s) {
+std::function<Xyz(std::size_t)> pixel_reader(const std::shared_ptr<FilmState>& s) {
   return [s, picture = std::shared_ptr<FilmDevelopment>()](std::size_t lane) mutable {
     if (picture == nullptr) {
       auto made = developed(*s->film);
@@ -91,7 +91,7 @@ Result<std::vector<float>> radiance_on(const MethodScene& scene, const Bands& ba
 
 Result<void> add_bands(const MethodScene& scene, const Bands& bands, const std::string& family,
                        const std::string& name, std::vector<MethodRun>& methods) {
-  auto s = std::make_shared<State>();
+  auto s = std::make_shared<FilmState>();
   SPECTILE_ASSIGN(s->radiance, radiance_on(scene, bands, &s->white_y));
   FilmOptions o = film_options();
   o.input = FilmInput::kBands;
@@ -113,7 +113,7 @@ void add_draw(Film& film, const Positions& at, const SampledWavelengths& w, cons
 
 Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& methods) {
   struct Drawn {
-    State film;
+    FilmState film;
     std::vector<SampledWavelengths> draws;
     std::vector<WavelengthLanes> radiance;
     std::size_t next = 0;
@@ -168,7 +168,7 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
       for (std::size_t i = 0; i < kDrawsPerPixel; ++i) {
         add_draw(*d->film.film, d->film.at, d->draws[i], d->radiance[i]);
       }
-      pixels = pixel_reader(std::shared_ptr<State>(d, &d->film));
+      pixels = pixel_reader(std::shared_ptr<FilmState>(d, &d->film));
     }
     return pixels(lane);
   };

@@ -47,7 +47,7 @@ Result<std::shared_ptr<const Texture>> make_texture(const MethodScene& scene) {
 }
 
 /// Buffers and tables of a method.
-struct State {
+struct RgbState {
   std::shared_ptr<const Texture> texture;
   std::shared_ptr<const Upsampler> upsampler;
   std::optional<Projector> projector;
@@ -63,8 +63,8 @@ struct Maker {
   std::shared_ptr<const Texture> texture;
   std::vector<MethodRun>& methods;
 
-  Result<std::shared_ptr<State>> state_for(const std::shared_ptr<const Upsampler>& upsampler) const {
-    auto s = std::make_shared<State>();
+  Result<std::shared_ptr<RgbState>> state_for(const std::shared_ptr<const Upsampler>& upsampler) const {
+    auto s = std::make_shared<RgbState>();
     s->texture = texture;
     s->upsampler = upsampler;
     SPECTILE_ASSIGN(s->projector, Projector::reflective(upsampler->bands(), scene.light->spectrum));
@@ -76,8 +76,8 @@ struct Maker {
     return s;
   }
 
-  void add(const std::shared_ptr<State>& s, std::string family, std::string name, std::uint64_t bytes,
-           std::function<void(const KernelTable&, State&)> work) {
+  void add(const std::shared_ptr<RgbState>& s, std::string family, std::string name, std::uint64_t bytes,
+           std::function<void(const KernelTable&, RgbState&)> work) {
     MethodRun& method =
         methods.emplace_back(std::move(family), std::move(name), s->upsampler->bands().count(), bytes);
     method.run = [s, work = std::move(work), table = scene.table] { work(*table, *s); };
@@ -89,46 +89,46 @@ struct Maker {
   }
 };
 
-std::array<const float*, 3> rgb_rows(const State& s) {
+std::array<const float*, 3> rgb_rows(const RgbState& s) {
   const auto view = s.texture->rgb.view();
   return {view.c[0], view.c[1], view.c[2]};
 }
 
-void sum_up(const KernelTable& k, State& s) {
+void sum_up(const KernelTable& k, RgbState& s) {
   k.project(s.xyz.span().c, s.spectra.data(), ProjectorAccess::weights(*s.projector),
             s.upsampler->bands().count(), blocks_for(kMethodLanes));
 }
 
-void through_halves(const KernelTable& k, State& s) {
+void through_halves(const KernelTable& k, RgbState& s) {
   k.float_to_half(s.halves.data(), s.spectra.data(), s.spectra.size());
   k.half_to_float(s.spectra.data(), s.halves.data(), s.spectra.size());
 }
 
-void mix(const KernelTable& k, State& s) {
+void mix(const KernelTable& k, RgbState& s) {
   k.smits_blocks(s.spectra.data(), rgb_rows(s).data(),
                  {UpsamplerAccess::table(*s.upsampler), s.upsampler->bands().count(), s.upsampler->lowest()},
                  blocks_for(kMethodLanes), false);
 }
 
-void solve(const KernelTable& k, State& s) {
+void solve(const KernelTable& k, RgbState& s) {
   float* const c[3] = {s.coefficients.data(), s.coefficients.data() + kMethodLanes,
                        s.coefficients.data() + 2 * kMethodLanes};
   k.sigmoid_solve(c, rgb_rows(s).data(), UpsamplerAccess::sigmoid(*s.upsampler)->table, s.unsolved.data(),
                   kMethodLanes);
 }
 
-kernels::SigmoidSpectra sigmoids(State& s, const float* (&c)[3]) {
+kernels::SigmoidSpectra sigmoids(RgbState& s, const float* (&c)[3]) {
   for (std::size_t k = 0; k < 3; ++k) c[k] = s.coefficients.data() + k * kMethodLanes;
   return {c, nullptr, UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, s.upsampler->bands().count(),
           false};
 }
 
-void evaluate(const KernelTable& k, State& s) {
+void evaluate(const KernelTable& k, RgbState& s) {
   const float* c[3];
   k.sigmoid_blocks(s.spectra.data(), sigmoids(s, c), blocks_for(kMethodLanes), false);
 }
 
-void sum_sigmoid(const KernelTable& k, State& s) {
+void sum_sigmoid(const KernelTable& k, RgbState& s) {
   const float* c[3];
   k.sigmoid_project(s.xyz.span().c, sigmoids(s, c), ProjectorAccess::weights(*s.projector), kMethodLanes);
 }
@@ -146,12 +146,12 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
     return fmt::format("{}, {}, {}", family, label, execution);
   };
   if (method == Method::kSigmoid) {
-    maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, State& t) {
+    maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, RgbState& t) {
       solve(k, t);
       evaluate(k, t);
       sum_up(k, t);
     });
-    maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
+    maker.add(s, family, name("fused"), 0, [](const KernelTable& k, RgbState& t) {
       solve(k, t);
       sum_sigmoid(k, t);
     });
@@ -159,18 +159,18 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
     maker.add(s, family, name("coefficients stored"), 12, sum_sigmoid);
     return {};
   }
-  maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, State& t) {
+  maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, RgbState& t) {
     mix(k, t);
     sum_up(k, t);
   });
-  maker.add(s, family, name("spectra in half"), 2 * samples, [](const KernelTable& k, State& t) {
+  maker.add(s, family, name("spectra in half"), 2 * samples, [](const KernelTable& k, RgbState& t) {
     mix(k, t);
     through_halves(k, t);
     sum_up(k, t);
   });
   constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
-  maker.add(s, family, name("fused"), 0, [](const KernelTable& k, State& t) {
+  maker.add(s, family, name("fused"), 0, [](const KernelTable& k, RgbState& t) {
     k.smits_fold(t.xyz.span().c, rgb_rows(t).data(), RelighterAccess::table(*t.relighter), kMethodLanes);
   });
   return {};
@@ -186,7 +186,7 @@ Result<void> add_rgb(Maker& maker) {
   const Xyz light = times(inverse(to_xyz), maker.scene.light->white);
   auto folded = std::make_shared<std::vector<float>>();
   for (std::size_t i = 0; i < 9; ++i) folded->push_back(static_cast<float>(to_xyz[i] * light[i % 3]));
-  maker.add(state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, State& t) {
+  maker.add(state, "RGB", "RGB times RGB", 12, [folded](const KernelTable& k, RgbState& t) {
     k.transform3(t.xyz.span().c, rgb_rows(t).data(), folded->data(), kMethodLanes);
   });
   maker.methods.back().bands = 0;

@@ -12,8 +12,8 @@
 namespace spectile::measure {
 namespace {
 
-constexpr std::int32_t kIntervals = 470;  // 360 to 830 nm
-constexpr double kFirstNm = 360;
+constexpr std::int32_t kCurveIntervals = 470;  // 360 to 830 nm
+constexpr double kCurvesFirstNm = 360;
 /// Three curves' values at a wavelength, and at 4 their differences to the next one, as the kernels want
 /// them.
 struct alignas(32) CurveRow {
@@ -23,14 +23,14 @@ using CurveRows = std::shared_ptr<const std::vector<CurveRow>>;
 
 Result<CurveRows> curve_rows() {
   // One row more behind the last.
-  auto rows = std::make_shared<std::vector<CurveRow>>(kIntervals + 2);
+  auto rows = std::make_shared<std::vector<CurveRow>>(kCurveIntervals + 2);
   const char* const names[3] = {"cie1931-x", "cie1931-y", "cie1931-z"};
   for (std::size_t c = 0; c < 3; ++c) {
     SPECTILE_ASSIGN(const auto curve, named_spectrum(names[c]));
-    for (std::size_t i = 0; i <= kIntervals; ++i) {
-      const double nm = kFirstNm + static_cast<double>(i);
+    for (std::size_t i = 0; i <= kCurveIntervals; ++i) {
+      const double nm = kCurvesFirstNm + static_cast<double>(i);
       const auto value = static_cast<float>(curve(nm));
-      const float next = i < kIntervals ? static_cast<float>(curve(nm + 1)) : value;
+      const float next = i < kCurveIntervals ? static_cast<float>(curve(nm + 1)) : value;
       (*rows)[i].values[c] = value;
       (*rows)[i].values[4 + c] = next - value;
     }
@@ -56,7 +56,8 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
   op.fill = fill_path;
   op.run = [rows](const KernelTable& k, const Arrays& a) {
     const PathRows path(a);
-    const kernels::FilmCurves curves = {rows->front().values, static_cast<float>(kFirstNm), kIntervals, 2};
+    const kernels::FilmCurves curves = {rows->front().values, static_cast<float>(kCurvesFirstNm),
+                                        kCurveIntervals, 2};
     k.film_weigh_wavelengths({a.out(), reasons_for(a.n())},
                              {path.values, path.lambda, path.density, nullptr, kWavelengths, a.n()}, curves,
                              kNoLimits, 1.0F / kWavelengths);
@@ -65,8 +66,8 @@ void add_wavelength_samples(std::vector<Operation>& to, const CurveRows& rows) {
       3, 2 * kWavelengths, false, op.bound, [rows](const double* v, double* reference, double* scale) {
         for (std::size_t i = 0; i < kWavelengths; ++i) {
           const double density = v[2 * kWavelengths + i];
-          const double t = v[kWavelengths + i] - kFirstNm;
-          if (density == 0 || !(t >= 0 && t <= kIntervals)) continue;
+          const double t = v[kWavelengths + i] - kCurvesFirstNm;
+          if (density == 0 || !(t >= 0 && t <= kCurveIntervals)) continue;
           const double ratio = v[i] / density;
           const auto row = static_cast<std::size_t>(t);
           const double part = t - static_cast<double>(row);

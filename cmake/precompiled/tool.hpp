@@ -1,7 +1,6 @@
 // Precompiled for the tool: see library.hpp.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,5 +9,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <spectile/spectile.hpp>
 #include <string>
 #include <vector>

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "src/base/errors.hpp"
+#include "src/base/zeroed_pages.hpp"
 
 namespace spectile {
 namespace {
 
-constexpr std::size_t kAlignment = 64;
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 // Maximum of unused memory in the pool; beyond it freed memory goes back at once.
 constexpr std::size_t kMaxPooledBytes = std::size_t{256} << 20;
 
@@ -67,7 +66,7 @@ Pool& pool() {
 }
 
 std::size_t rounded(std::size_t bytes) {
-  const std::size_t unit = bytes >= kHugePage ? kHugePage : kAlignment;
+  const std::size_t unit = bytes >= kHugePage ? kHugePage : kCacheLine;
   return (bytes + unit - 1) / unit * unit;
 }
 
@@ -85,7 +84,7 @@ Result<FloatBuffer> FloatBuffer::create(std::size_t count) {
   const std::size_t bytes = rounded(count == 0 ? 1 : count * sizeof(float));
   void* p = pool().take(bytes);
   if (p == nullptr) {
-    const std::size_t alignment = bytes >= kHugePage ? kHugePage : kAlignment;
+    const std::size_t alignment = bytes >= kHugePage ? kHugePage : kCacheLine;
     p = std::aligned_alloc(alignment, bytes);
     if (p == nullptr) return make_error(ErrorCode::kOutOfMemory, "no memory for {} bytes of samples", bytes);
 #ifdef MADV_HUGEPAGE

@@ -8,9 +8,6 @@
 namespace spectile {
 namespace {
 
-constexpr std::size_t kAlignment = 64;
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
-
 /// A mapping that starts at a huge page's border. Null where there is no memory.
 void* map_aligned(std::size_t bytes) {
   const std::size_t with_slack = bytes + kHugePage;
@@ -34,7 +31,7 @@ ZeroedPages::~ZeroedPages() {
 
 void* ZeroedPages::take(std::size_t bytes) {
   if (bytes > SIZE_MAX / 4) return nullptr;
-  const std::size_t piece = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  const std::size_t piece = (bytes + kCacheLine - 1) / kCacheLine * kCacheLine;
   const std::scoped_lock lock(mutex_);
   if (piece > left_) {
     const std::size_t slab_bytes = (piece + kHugePage - 1) / kHugePage * kHugePage;

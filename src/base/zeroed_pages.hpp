@@ -7,6 +7,9 @@
 
 namespace spectile {
 
+inline constexpr std::size_t kCacheLine = 64;
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
 /// Pieces lie in slabs of huge pages where the system has them: random access to many pieces then misses the
 /// address cache less. Thread-safe.
 class ZeroedPages {

@@ -15,7 +15,7 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct BenchArguments {
   bool quick = false;
   bool stress = false;
   bool stress_only = false;
@@ -176,7 +176,7 @@ int write_file(const std::string& path, const std::string& text) {
 }
 
 /// Throws: Stop.
-BenchmarkOptions make_options(const Arguments& a) {
+BenchmarkOptions make_options(const BenchArguments& a) {
   BenchmarkOptions out;
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
@@ -210,7 +210,7 @@ std::string make_plot(const BenchmarkReport& r) {
   return chosen == nullptr ? std::string() : benchmark_plot(r, chosen->job, chosen->light);
 }
 
-int run(const Arguments& a) {
+int run_bench(const BenchArguments& a) {
   catch_signals();
   BenchmarkOptions options = make_options(a);
   for (const std::string& path : {a.report, a.plot}) {
@@ -242,37 +242,40 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, int& exit) {
+void add_bench(const Command& app, int& exit) {
   const auto [command, a] =
-      add_subcommand(app, "bench", "Measure limits, throughput and error on this machine", run, exit);
-  const OptionAdder option{*command};
-  option("--report", a->report, "FILE", kFilesGroup, "Write the report as one page of HTML, with its plots");
-  option("--plot", a->plot, "FILE", kFilesGroup, "Write one plot as SVG: error against time of film samples");
-  option("--reflectances", a->reflectances, "FILE", kFilesGroup,
-         "Measured reflectances to evaluate errors on; the ColorChecker by default");
+      add_subcommand(app, "bench", "Measure limits, throughput and error on this machine", run_bench, exit);
+  command.option("--report", a->report, "FILE", kFilesGroup,
+                 "Write the report as one page of HTML, with its plots");
+  command.option("--plot", a->plot, "FILE", kFilesGroup,
+                 "Write one plot as SVG: error against time of film samples");
+  command.option("--reflectances", a->reflectances, "FILE", kFilesGroup,
+                 "Measured reflectances to evaluate errors on; the ColorChecker by default");
   constexpr const char* kMeasured = "Measurements";
-  option.flag("--quick", a->quick, kMeasured,
-              "Half a minute: the fastest instruction set, fewer methods and rounds");
-  CLI::Option* const stress = option.flag("--stress", a->stress, kMeasured, "Also run the long stress test");
-  option.flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test")->excludes(stress);
-  option.flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");
-  option("--only", a->only, "TEXT", kMeasured, "Only operations whose name contains this; no methods");
-  option("--illuminant", a->lights, "NAME", kMeasured,
-         "Illuminants of the methods; D65,A,FL11,HP1 by default")
-      ->delimiter(',');
-  option("--threads", a->threads, "N", kMeasured,
-         "Numbers of threads; 1, 2, 4 ... up to the cores by default")
-      ->delimiter(',');
-  option("--isa", a->isas, "NAME", kMeasured, "Instruction sets; all that run here by default")
-      ->delimiter(',');
-  option("--seed", a->seed, "N", kMeasured, "Random seed of the inputs")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->capture_default_str();
-  option.flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
-  option.flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
-  command->set_help_flag("-h,--help", "Print this help message and exit")->group(kRunGroup);
-  command->footer(
+  command.flag("--quick", a->quick, kMeasured,
+               "Half a minute: the fastest instruction set, fewer methods and rounds");
+  const Option stress = command.flag("--stress", a->stress, kMeasured, "Also run the long stress test");
+  command.flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test").excludes(stress);
+  command.flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");
+  command.option("--only", a->only, "TEXT", kMeasured,
+                 "Only operations whose name contains this; no methods");
+  command
+      .option("--illuminant", a->lights, "NAME", kMeasured,
+              "Illuminants of the methods; D65,A,FL11,HP1 by default")
+      .separated_by(',');
+  command
+      .option("--threads", a->threads, "N", kMeasured,
+              "Numbers of threads; 1, 2, 4 ... up to the cores by default")
+      .separated_by(',');
+  command.option("--isa", a->isas, "NAME", kMeasured, "Instruction sets; all that run here by default")
+      .separated_by(',');
+  command.option("--seed", a->seed, "N", kMeasured, "Random seed of the inputs")
+      .not_negative()
+      .show_default();
+  command.flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
+  command.flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
+  command.help_group(kRunGroup);
+  command.footer(
       "Example:\n  spectile bench --quick --report bench.html\n"
       "Takes minutes. The report says where other work disturbed it (docs/performance.md).\n"
       "Exit code 1: a result is beyond its stated bound.");

@@ -14,7 +14,7 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct DemoArguments {
   Common common;
   std::string directory = "spectile-demo";
 };
@@ -73,7 +73,7 @@ std::array<double, 2> differences(const RgbImage& a, const RgbImage& b) {
   return {sum / (3.0 * static_cast<double>(a.rgb.lanes())), maximum};
 }
 
-int run(const Arguments& a) {
+int run_demo(const DemoArguments& a) {
   apply_common(a.common);
   catch_signals();
   std::error_code error;
@@ -142,14 +142,12 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_demo(CLI::App& app, int& exit) {
+void add_demo(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "demo", "Make a chart, upsample it, project it back; print error and speed of each step", run,
+      app, "demo", "Make a chart, upsample it, project it back; print error and speed of each step", run_demo,
       exit);
-  command->add_option("DIR", a->directory, "Folder for the three images")
-      ->type_name("")
-      ->capture_default_str();
-  add_common(*command, a->common, "spectile demo /tmp/demo");
+  command.positional("DIR", a->directory, "Folder for the three images", "").show_default();
+  add_common(command, a->common, "spectile demo /tmp/demo");
 }
 
 }  // namespace spectile::cli

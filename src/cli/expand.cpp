@@ -6,12 +6,12 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct ExpandArguments {
   ImageCommand image;
   std::string bands;
 };
 
-int run(const Arguments& a) {
+int run_expand(const ExpandArguments& a) {
   ExpandImageOptions options;
   a.image.apply(options);
   if (!a.bands.empty()) options.bands = take(find_bands(a.bands));
@@ -21,13 +21,14 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_expand(CLI::App& app, int& exit) {
+void add_expand(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "expand", "Turn coefficient images (upsample --store coefficients) into spectral ones", run, exit);
-  a->image.add_files(*command, "OpenEXR images with channels spectile.c0, c1, c2");
-  OptionAdder{*command}("--bands", a->bands, "BANDS", kBandsGroup,
-                        "FIRST:LAST:STEP, centres in nm, or a plan; the image's own by default");
-  a->image.add_options(*command, "half", "spectile expand wood-c.exr -o wood-s.exr --bands 380:780:5");
+      app, "expand", "Turn coefficient images (upsample --store coefficients) into spectral ones", run_expand,
+      exit);
+  a->image.add_files(command, "OpenEXR images with channels spectile.c0, c1, c2");
+  command.option("--bands", a->bands, "BANDS", kBandsGroup,
+                 "FIRST:LAST:STEP, centres in nm, or a plan; the image's own by default");
+  a->image.add_options(command, "half", "spectile expand wood-c.exr -o wood-s.exr --bands 380:780:5");
 }
 
 }  // namespace spectile::cli

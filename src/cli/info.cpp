@@ -17,7 +17,7 @@ std::array<int, 4> corners(const PixelWindow& window) {
   return {window.x0, window.y0, window.x1 - 1, window.y1 - 1};
 }
 
-struct Arguments {
+struct InfoArguments {
   Common common;
   std::string input;
   std::string pixel;
@@ -109,7 +109,7 @@ void print_pixel(const ImageInfo& info, const std::string& where) {
   }
 }
 
-int run(const Arguments& a) {
+int run_info(const InfoArguments& a) {
   apply_common(a.common);
   std::optional<std::array<int, 2>> pixel;
   if (!a.pixel.empty()) {
@@ -128,13 +128,13 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_info(CLI::App& app, int& exit) {
+void add_info(const Command& app, int& exit) {
   const auto [command, a] =
-      add_subcommand(app, "info", "Print image metadata, and a pixel's spectrum", run, exit);
-  command->add_option("FILE", a->input, "Any flat OpenEXR image")->type_name("")->required();
-  OptionAdder{*command}("--pixel", a->pixel, "X,Y", kFilesGroup,
-                        "Show this pixel, counted from the data window's upper left corner");
-  add_common(*command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
+      add_subcommand(app, "info", "Print image metadata, and a pixel's spectrum", run_info, exit);
+  command.positional("FILE", a->input, "Any flat OpenEXR image", "").required();
+  command.option("--pixel", a->pixel, "X,Y", kFilesGroup,
+                 "Show this pixel, counted from the data window's upper left corner");
+  add_common(command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
 }
 
 }  // namespace spectile::cli

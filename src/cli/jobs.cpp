@@ -140,14 +140,13 @@ std::string file_of_bands(const std::string& bands) {
   return Bands::parse(bands) ? std::string() : bands;
 }
 
-void ImageCommand::add_files(CLI::App& command, const std::string& input_help) {
-  command.add_option("IN", inputs, input_help)->type_name("FILE")->required();
-  OptionAdder{command}("-o,--output", output, "PATH", kFilesGroup,
-                       "Output file, or folder for several inputs")
-      ->required();
+void ImageCommand::add_files(const Command& command, const std::string& input_help) {
+  command.positional("IN", inputs, input_help).required();
+  command.option("-o,--output", output, "PATH", kFilesGroup, "Output file, or folder for several inputs")
+      .required();
 }
 
-void ImageCommand::add_options(CLI::App& command, const std::string& pixel_default,
+void ImageCommand::add_options(const Command& command, const std::string& pixel_default,
                                const std::string& example) {
   add_nonfinite_option(command, write.nonfinite, "the pixel becomes black");
   add_format_options(command, write, pixel_default);

@@ -33,9 +33,9 @@ struct ImageCommand {
   std::string output;
 
   /// Adds the inputs and the output.
-  void add_files(CLI::App& command, const std::string& input_help);
+  void add_files(const Command& command, const std::string& input_help);
   /// Adds all other common options; `example` ends the help.
-  void add_options(CLI::App& command, const std::string& pixel_default, const std::string& example);
+  void add_options(const Command& command, const std::string& pixel_default, const std::string& example);
   /// Fills `out`. Throws: Stop.
   void apply(ImageOptions& out) const;
 };

@@ -1,7 +1,6 @@
 // The spectile command.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,23 +8,24 @@
 #include <system_error>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/options/command.hpp"
 #include "src/cli/output/messages.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   using namespace spectile::cli;
-  CLI::App app{
+  const CommandLine command_line(
+      "spectile",
       "Turns RGB textures into spectral OpenEXR images and back, relights them, and accumulates spectral "
       "samples.",
-      "spectile"};
+      SPECTILE_VERSION);
+  const Command app = command_line.root();
   app.footer(
       "Example:\n  spectile upsample wood.exr -o wood-spectral.exr\n"
       "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space or no permission,\n"
       "130 interrupted.");
-  app.get_formatter()->column_width(34);
-  app.set_version_flag("--version", SPECTILE_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand();
   int exit = kOk;
   add_demo(app, exit);
   add_upsample(app, exit);
@@ -39,13 +39,7 @@ int run(int argc, char** argv) {
   add_film(app, exit);
   add_bench(app, exit);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
-    std::string text = error.what();
-    for (char& c : text) c = c == '\n' ? ' ' : c;
-    fmt::print(stderr, "spectile: {} (see spectile --help)\n", text);
-    return kBadUsage;
+    if (const auto ended = command_line.run(argc, argv)) return *ended;
   } catch (const Stop& stop) {
     exit = stop.exit;
   }

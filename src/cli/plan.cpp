@@ -17,7 +17,7 @@ constexpr const char* kName = "plan";
 constexpr Choice<BandSampling> kSamplings[] = {{"points", BandSampling::kPoints},
                                                {"bands", BandSampling::kAverages}};
 
-struct Arguments {
+struct PlanArguments {
   Common common;
   std::vector<std::string> lights;
   std::vector<std::string> reflectances;
@@ -43,7 +43,7 @@ struct Scene {
 };
 
 /// Throws: Stop.
-void add_lights(const Arguments& a, PlannerOptions& out) {
+void add_lights(const PlanArguments& a, PlannerOptions& out) {
   for (const std::string& text : a.lights) {
     NamedLight named = take(find_light(text));
     for (const NamedLight& other : out.lights) {
@@ -83,7 +83,7 @@ std::vector<Spectrum> default_reflectances() {
 }
 
 /// Throws: Stop.
-void add_textures(const Arguments& a, std::vector<Spectrum>& out) {
+void add_textures(const PlanArguments& a, std::vector<Spectrum>& out) {
   MethodOptions options;
   options.threads = a.common.threads;
   options.layer = a.layer;
@@ -101,7 +101,7 @@ void add_textures(const Arguments& a, std::vector<Spectrum>& out) {
 }
 
 /// Throws: Stop.
-void add_reflectances(const Arguments& a, Scene& out) {
+void add_reflectances(const PlanArguments& a, Scene& out) {
   auto& all = out.options.reflectances;
   for (const std::string& text : a.reflectances) {
     const std::vector<Spectrum> some = reflectances_of(text);
@@ -149,7 +149,7 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
   }
 }
 
-int run(const Arguments& a) {
+int run_plan(const PlanArguments& a) {
   apply_common(a.common);
   if (a.bands.has_value() == a.max_error.has_value())
     return complain_usage("give either --bands or --max-error", kName);
@@ -188,37 +188,39 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, int& exit) {
+void add_plan(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "plan", "Choose the few wavelengths or bands that a scene's colours need", run, exit);
-  const OptionAdder option{*command};
-  option("-o,--output", a->output, "FILE", kFilesGroup, "Plan to write, as JSON")->required();
-  option("--reflectances", a->reflectances, "FILE", kFilesGroup,
-         "Reflectances of the scene: files, or names of spectra; a general set by default");
-  option("--texture", a->textures, "FILE", kFilesGroup, "RGB OpenEXR images whose colours the scene holds");
-  option("--colors", a->colors, "N", kFilesGroup, "Largest number of colours taken from a texture")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{4096}).description(""))
-      ->capture_default_str();
-  add_nonfinite_option(*command, a->nonfinite, "the pixel is left out");
-  option("--illuminant", a->lights, "SPECTRUM", kColorGroup,
-         "Illuminant of the scene; repeat it for several, which share the wavelengths")
-      ->required();
-  add_observer_option(*command, a->observer);
-  add_method_option(*command, a->method);
-  add_rgb_input_options(*command, a->input_space, a->layer);
-  option("--bounces", a->bounces, "N", kColorGroup, "Reflections that must keep their colour, 1 to 4")
-      ->check(CLI::Range(1, 4).description(""))
-      ->capture_default_str();
-  option("--bands", a->bands, "N", kBandsGroup, "Number of wavelengths, 3 to 64")
-      ->check(CLI::Range(std::size_t{3}, std::size_t{64}).description(""));
-  option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
-         "Instead: the smallest number that meets this maximum error");
-  option.choice("--sample", a->sample, kSamplings, kBandsGroup,
-                "points (values at wavelengths), or bands (averages, as upsample writes)");
-  option("--folds", a->folds, "N", kBandsGroup, "Folds of the cross-validation; 0: none, which is quicker")
-      ->check(CLI::Range(0, 1000).description(""))
-      ->capture_default_str();
-  add_common(*command, a->common,
+      app, "plan", "Choose the few wavelengths or bands that a scene's colours need", run_plan, exit);
+  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Plan to write, as JSON").required();
+  command.option("--reflectances", a->reflectances, "FILE", kFilesGroup,
+                 "Reflectances of the scene: files, or names of spectra; a general set by default");
+  command.option("--texture", a->textures, "FILE", kFilesGroup,
+                 "RGB OpenEXR images whose colours the scene holds");
+  command.option("--colors", a->colors, "N", kFilesGroup, "Largest number of colours taken from a texture")
+      .range(1, 4096)
+      .show_default();
+  add_nonfinite_option(command, a->nonfinite, "the pixel is left out");
+  command
+      .option("--illuminant", a->lights, "SPECTRUM", kColorGroup,
+              "Illuminant of the scene; repeat it for several, which share the wavelengths")
+      .required();
+  add_observer_option(command, a->observer);
+  add_method_option(command, a->method);
+  add_rgb_input_options(command, a->input_space, a->layer);
+  command.option("--bounces", a->bounces, "N", kColorGroup, "Reflections that must keep their colour, 1 to 4")
+      .range(1, 4)
+      .show_default();
+  command.option("--bands", a->bands, "N", kBandsGroup, "Number of wavelengths, 3 to 64").range(3, 64);
+  command.option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
+                 "Instead: the smallest number that meets this maximum error");
+  command.choice("--sample", a->sample, kSamplings, kBandsGroup,
+                 "points (values at wavelengths), or bands (averages, as upsample writes)");
+  command
+      .option("--folds", a->folds, "N", kBandsGroup,
+              "Folds of the cross-validation; 0: none, which is quicker")
+      .range(0, 1000)
+      .show_default();
+  add_common(command, a->common,
              "spectile plan --illuminant D65 --texture wood.exr --bands 7 --sample bands -o plan.json\n" +
                  kSpectrumHelp);
 }

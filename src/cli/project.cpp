@@ -9,7 +9,7 @@ namespace {
 constexpr Choice<Quantity> kQuantities[] = {{"reflectance", Quantity::kReflectance},
                                             {"illuminant", Quantity::kIlluminant}};
 
-struct Arguments {
+struct ProjectArguments {
   ImageCommand image;
   ColorTarget to = ColorTarget::kSrgb;
   std::string illuminant;
@@ -18,7 +18,7 @@ struct Arguments {
   Adaptation adapt = Adaptation::kNone;
 };
 
-int run(const Arguments& a) {
+int run_project(const ProjectArguments& a) {
   ProjectImageOptions options;
   options.pixel = SampleType::kFloat;
   a.image.apply(options);
@@ -33,18 +33,18 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_project(CLI::App& app, int& exit) {
-  const auto [command, a] = add_subcommand(app, "project", "Turn spectral images into colour", run, exit);
-  a->image.add_files(*command, "Spectral OpenEXR images (channels T.*nm or S0.*nm)");
-  const OptionAdder option{*command};
-  option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
-         "Illuminant on reflectances; D65 by default");
-  add_observer_option(*command, a->observer);
-  add_target_options(*command, a->to, a->adapt);
-  option.choice("--quantity", a->quantity, kQuantities, kColorGroup,
-                "reflectance or illuminant, where a file holds both");
+void add_project(const Command& app, int& exit) {
+  const auto [command, a] =
+      add_subcommand(app, "project", "Turn spectral images into colour", run_project, exit);
+  a->image.add_files(command, "Spectral OpenEXR images (channels T.*nm or S0.*nm)");
+  command.option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
+                 "Illuminant on reflectances; D65 by default");
+  add_observer_option(command, a->observer);
+  add_target_options(command, a->to, a->adapt);
+  command.choice("--quantity", a->quantity, kQuantities, kColorGroup,
+                 "reflectance or illuminant, where a file holds both");
   a->image.add_options(
-      *command, "float",
+      command, "float",
       "spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n" + kSpectrumHelp);
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr Choice<RelightMode> kModes[] = {{"direct", RelightMode::kDirect},
                                           {"spectra", RelightMode::kSpectra}};
 
-struct Arguments {
+struct RelightArguments {
   ImageCommand image;
   MethodArguments method;
   std::string illuminant;
@@ -20,7 +20,7 @@ struct Arguments {
   RelightMode mode = RelightMode::kDirect;
 };
 
-int run(const Arguments& a) {
+int run_relight(const RelightArguments& a) {
   RelightImageOptions options(take(find_light(a.illuminant)));
   a.image.apply(options);
   apply_method_options(a.method, options);
@@ -36,19 +36,19 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_relight(CLI::App& app, int& exit) {
+void add_relight(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "relight", "Show textures under another illuminant, without spectral images", run, exit);
-  a->image.add_files(*command, "RGB OpenEXR images");
-  const OptionAdder option{*command};
-  option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup, "Illuminant to show them under")->required();
-  add_observer_option(*command, a->observer);
-  add_target_options(*command, a->to, a->adapt);
-  option.choice("--way", a->mode, kModes, kColorGroup,
-                "direct, or spectra: spectrum by spectrum, to check the former");
-  add_method_options(*command, a->method);
+      app, "relight", "Show textures under another illuminant, without spectral images", run_relight, exit);
+  a->image.add_files(command, "RGB OpenEXR images");
+  command.option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup, "Illuminant to show them under")
+      .required();
+  add_observer_option(command, a->observer);
+  add_target_options(command, a->to, a->adapt);
+  command.choice("--way", a->mode, kModes, kColorGroup,
+                 "direct, or spectra: spectrum by spectrum, to check the former");
+  add_method_options(command, a->method);
   a->image.add_options(
-      *command, "half",
+      command, "half",
       "spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n" + kSpectrumHelp);
 }
 

@@ -9,6 +9,7 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/options/parse.hpp"
 #include "src/cli/output/plot.hpp"
 
 namespace spectile::cli {
@@ -17,7 +18,7 @@ namespace {
 constexpr int kColumns = 66;
 constexpr int kRows = 16;
 
-struct Arguments {
+struct SpectraArguments {
   Common common;
   std::optional<std::string> which;
   bool csv = false;
@@ -41,7 +42,7 @@ bool may_be_illuminant(const Shown& s) {
   return s.kind == "illuminant" || s.kind == "formula" || s.kind == "file";
 }
 
-int list_all(const Arguments& a) {
+int list_all(const SpectraArguments& a) {
   std::string last;
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (a.csv) {
@@ -68,7 +69,7 @@ int list_all(const Arguments& a) {
   return kOk;
 }
 
-Result<Spectrum> spectrum_of(const Arguments& a) {
+Result<Spectrum> spectrum_of(const SpectraArguments& a) {
   if (!a.column) return find_spectrum(*a.which);
   if (named_spectrum(*a.which)) {
     return Error{ErrorCode::kBadArgument,
@@ -77,7 +78,7 @@ Result<Spectrum> spectrum_of(const Arguments& a) {
   return load_spectrum(*a.which, *a.column);
 }
 
-Shown describe(const Arguments& a, const Spectrum& spectrum) {
+Shown describe(const SpectraArguments& a, const Spectrum& spectrum) {
   Shown out{.name = *a.which,
             .kind = named_spectrum(*a.which) ? "formula" : "file",
             .about = spectrum.to_text(),
@@ -86,8 +87,8 @@ Shown describe(const Arguments& a, const Spectrum& spectrum) {
             .wavelengths_nm = {},
             .values = {}};
   for (const NamedSpectrumInfo& info : named_spectra()) {
-    const std::string wanted = CLI::detail::to_lower(*a.which);
-    if (CLI::detail::to_lower(info.name) != wanted && CLI::detail::to_lower(info.alias) != wanted) continue;
+    const std::string wanted = lower_case(*a.which);
+    if (lower_case(info.name) != wanted && lower_case(info.alias) != wanted) continue;
     out.name = info.name;
     out.kind = info.kind;
     out.about = info.about;
@@ -138,7 +139,7 @@ Facts facts_of(const Shown& s) {
   return out;
 }
 
-void print_shown_json(const Shown& s, const Arguments& a) {
+void print_shown_json(const Shown& s, const SpectraArguments& a) {
   const Facts facts = facts_of(s);
   nlohmann::json out = {{"name", s.name},
                         {"kind", s.kind},
@@ -156,7 +157,7 @@ void print_shown_json(const Shown& s, const Arguments& a) {
   print_json(out);
 }
 
-void print_csv(const Shown& s, const Arguments& a) {
+void print_csv(const Shown& s, const SpectraArguments& a) {
   fmt::print("wavelength_nm,value\n");
   for (const double nm : a.at) fmt::print("{},{}\n", nm, s.spectrum(nm));
   if (!a.at.empty()) return;
@@ -177,7 +178,7 @@ void print_drawing(const Shown& s) {
   }
 }
 
-void print_text(const Shown& s, const Arguments& a) {
+void print_text(const Shown& s, const SpectraArguments& a) {
   fmt::print("{}: {}, {}{}\n", s.name, s.kind, s.about, s.source.empty() ? "" : " (" + s.source + ")");
   if (!a.at.empty()) {
     for (const double nm : a.at) fmt::print("  {:.10g} nm  {:.10g}\n", nm, s.spectrum(nm));
@@ -195,7 +196,7 @@ void print_text(const Shown& s, const Arguments& a) {
   }
 }
 
-int run(const Arguments& a) {
+int run_spectra(const SpectraArguments& a) {
   apply_common(a.common);
   if (!a.which) return list_all(a);
   const Shown shown = describe(a, take(spectrum_of(a)));
@@ -211,32 +212,29 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_spectra(CLI::App& app, int& exit) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("spectra", "List the spectra known by name, or show one");
-  command
-      ->add_option("SPECTRUM", a->which,
-                   "Name, file (CSV, .sp, .cmf), or blackbody:KELVIN, daylight:KELVIN, constant:VALUE")
-      ->type_name("");
+void add_spectra(const Command& app, int& exit) {
+  auto a = std::make_shared<SpectraArguments>();
+  const Command command = app.subcommand("spectra", "List the spectra known by name, or show one");
+  command.positional("SPECTRUM", a->which,
+                     "Name, file (CSV, .sp, .cmf), or blackbody:KELVIN, daylight:KELVIN, constant:VALUE", "");
   constexpr const char* kGroup = "Values";
-  const OptionAdder option{*command};
-  CLI::Option* const csv = option.flag("--csv", a->csv, kGroup, "Print comma-separated values only");
-  option("--at", a->at, "NM", kGroup, "Print the value at this wavelength in nm; may be repeated")
-      ->allow_extra_args(false)
-      ->check([](const std::string& text) {
-        double nm = 0;
-        const bool good = CLI::detail::lexical_cast(text, nm) && std::isfinite(nm);
-        return good ? std::string() : text + " is not a wavelength";
+  const Option csv = command.flag("--csv", a->csv, kGroup, "Print comma-separated values only");
+  command.option("--at", a->at, "NM", kGroup, "Print the value at this wavelength in nm; may be repeated")
+      .one_value()
+      .check([](const std::string& text) {
+        const auto nm = parse_numbers<double>(text, ',');
+        return nm && nm->size() == 1 && std::isfinite(nm->front()) ? std::string()
+                                                                   : text + " is not a wavelength";
       });
-  option("--column", a->column, "N", kGroup, "Data row of a CGATS file that holds several, from 0")
-      ->check(CLI::Range(0, 999999).description(""));
-  add_common(*command, a->common, "spectile spectra blackbody:3200 --at 555");
-  csv->excludes("--json");
-  command->callback([a, &exit] {
+  command.option("--column", a->column, "N", kGroup, "Data row of a CGATS file that holds several, from 0")
+      .range(0, 999999);
+  add_common(command, a->common, "spectile spectra blackbody:3200 --at 555");
+  csv.excludes("--json");
+  command.on_run([a, &exit] {
     if (!a->which && (!a->at.empty() || a->column)) {
-      throw CLI::RequiredError("SPECTRUM, of which --at or --column asks,");
+      throw_usage_error("SPECTRUM, of which --at or --column asks, is required");
     }
-    exit = run(*a);
+    exit = run_spectra(*a);
   });
 }
 

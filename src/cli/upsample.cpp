@@ -9,7 +9,7 @@ namespace {
 
 constexpr Choice<Store> kStores[] = {{"spectra", Store::kSpectra}, {"coefficients", Store::kCoefficients}};
 
-struct Arguments {
+struct UpsampleArguments {
   ImageCommand image;
   MethodArguments method;
   Store store = Store::kSpectra;
@@ -17,7 +17,7 @@ struct Arguments {
   bool no_skip = false;
 };
 
-int run(const Arguments& a) {
+int run_upsample(const UpsampleArguments& a) {
   UpsampleImageOptions options;
   a.image.apply(options);
   apply_method_options(a.method, options);
@@ -33,21 +33,21 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_upsample(CLI::App& app, int& exit) {
-  const auto [command, a] = add_subcommand(app, "upsample", "Turn RGB images into spectral ones", run, exit);
-  a->image.add_files(*command, "RGB OpenEXR images: half, float or uint, scanline or tiled");
-  add_method_options(*command, a->method);
-  const OptionAdder option{*command};
-  option("--mask", a->mask, "FILE", kFilesGroup,
-         "Image that is 0 where pixels become black, or none; own alpha by default");
-  option.choice("--store", a->store, kStores, kFormatGroup,
-                "spectra: a channel per band; coefficients: for spectile expand");
+void add_upsample(const Command& app, int& exit) {
+  const auto [command, a] =
+      add_subcommand(app, "upsample", "Turn RGB images into spectral ones", run_upsample, exit);
+  a->image.add_files(command, "RGB OpenEXR images: half, float or uint, scanline or tiled");
+  add_method_options(command, a->method);
+  command.option("--mask", a->mask, "FILE", kFilesGroup,
+                 "Image that is 0 where pixels become black, or none; own alpha by default");
+  command.choice("--store", a->store, kStores, kFormatGroup,
+                 "spectra: a channel per band; coefficients: for spectile expand");
   a->image.add_options(
-      *command, "half",
+      command, "half",
       "spectile upsample wood.exr -o wood-s.exr --method sigmoid --bands 380:780:5\n" + kSpectrumHelp);
-  option.flag("--no-skip", a->no_skip, kRunGroup,
-              "Compute black, constant and repeated parts too; same bytes");
-  option.flag("--stats", a->image.common.stats, kRunGroup, "Print what was skipped");
+  command.flag("--no-skip", a->no_skip, kRunGroup,
+               "Compute black, constant and repeated parts too; same bytes");
+  command.flag("--stats", a->image.common.stats, kRunGroup, "Print what was skipped");
 }
 
 }  // namespace spectile::cli

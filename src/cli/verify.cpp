@@ -9,13 +9,13 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct VerifyArguments {
   Common common;
   std::vector<std::string> inputs;
   MethodArguments method;
 };
 
-int run(const Arguments& a) {
+int run_verify(const VerifyArguments& a) {
   apply_common(a.common);
   MethodOptions options;
   options.threads = a.common.threads;
@@ -53,12 +53,12 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, int& exit) {
+void add_verify(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "verify", "Compare kernels, scalar reference and double oracle on every pixel", run, exit);
-  command->add_option("IN", a->inputs, "RGB or spectral OpenEXR images")->type_name("FILE")->required();
-  add_method_options(*command, a->method);
-  add_common(*command, a->common, "spectile verify wood.exr --method sigmoid\n" + kSpectrumHelp);
+      app, "verify", "Compare kernels, scalar reference and double oracle on every pixel", run_verify, exit);
+  command.positional("IN", a->inputs, "RGB or spectral OpenEXR images").required();
+  add_method_options(command, a->method);
+  add_common(command, a->common, "spectile verify wood.exr --method sigmoid\n" + kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -55,7 +55,7 @@ GamutReport clip_bases(const kernels::KernelTable& kernels, const Upsampler& ups
 }
 
 /// Up to a block of colours that may be outside, solved together.
-struct Group {
+struct ClippedGroup {
   alignas(64) float rgb[3][kLanes] = {};
   alignas(64) float c[3][kLanes] = {};
   alignas(64) float scale[kLanes] = {};
@@ -65,7 +65,8 @@ struct Group {
 };
 
 /// The colours of a group that have no coefficients, a bit each.
-std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group) {
+std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& upsampler,
+                         ClippedGroup& group) {
   const float* const rgb[3] = {group.rgb[0], group.rgb[1], group.rgb[2]};
   const Coefficients out = {{group.c[0], group.c[1], group.c[2]},
                             has_scale(upsampler) ? group.scale : nullptr};
@@ -82,7 +83,7 @@ std::uint64_t unsolvable(const kernels::KernelTable& kernels, const Upsampler& u
   return unsolved;
 }
 
-void move_lane(const Upsampler& upsampler, Group& group, std::size_t i, bool to_grey) {
+void move_lane(const Upsampler& upsampler, ClippedGroup& group, std::size_t i, bool to_grey) {
   const float v[3] = {group.rgb[0][i], group.rgb[1][i], group.rgb[2][i]};
   const float y = std::max(0.0F, weighted_luminance(upsampler, v));
   const float grey = upsampler.quantity() == Quantity::kReflectance ? std::min(1.0F, y) : y;
@@ -90,7 +91,7 @@ void move_lane(const Upsampler& upsampler, Group& group, std::size_t i, bool to_
   for (std::size_t k = 0; k < 3; ++k) group.rgb[k][i] = part == 0 ? grey : grey + part * (v[k] - grey);
 }
 
-void clip_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
+void clip_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, ClippedGroup& group,
                 float* const rgb[3], GamutPolicy policy, GamutReport& report, std::uint8_t* lanes_outside) {
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
   std::uint64_t outside = unsolvable(kernels, upsampler, group);
@@ -120,7 +121,7 @@ GamutReport clip_sigmoid(const kernels::KernelTable& kernels, const Upsampler& u
   if (lanes_outside != nullptr) std::fill_n(lanes_outside, n, std::uint8_t{0});
   const float highest =
       upsampler.quantity() == Quantity::kReflectance ? 1.0F : std::numeric_limits<float>::infinity();
-  Group group;
+  ClippedGroup group;
   const bool only_beyond = covers_unit_cube(upsampler);
   const auto beyond = [highest](float v) { return v < 0 || v > highest; };
   for (std::size_t i = 0; i < n; ++i) {

@@ -13,9 +13,6 @@ namespace {
 
 using kernels::kLanes;
 
-// Lanes solved in one go: their colours are kept aside where the coefficients overwrite them.
-constexpr std::size_t kChunk = 512;
-
 /// Twice the largest component, at most the largest float, and the colour divided by it; black and what is
 /// not finite as it comes.
 void normalize(const float* const rgb[3], float* const out[3], float* scale, std::size_t n) {
@@ -33,7 +30,7 @@ void normalize(const float* const rgb[3], float* const out[3], float* scale, std
 }
 
 /// Lanes gathered for the continuation.
-struct Group {
+struct SolvedGroup {
   alignas(64) float rgb[3][kLanes];
   alignas(64) float c[3][kLanes];
   alignas(64) float part[kLanes];
@@ -41,7 +38,7 @@ struct Group {
   std::size_t count = 0;
 };
 
-void continue_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, Group& group,
+void continue_group(const kernels::KernelTable& kernels, const Upsampler& upsampler, SolvedGroup& group,
                     float* const c[3], std::uint64_t* unsolved, float* part) {
   if (group.count == 0) return;
   for (auto& plane : group.rgb) std::fill(plane + group.count, plane + kLanes, 0.5F);
@@ -62,7 +59,7 @@ void continue_group(const kernels::KernelTable& kernels, const Upsampler& upsamp
 void continue_unsolved(const kernels::KernelTable& kernels, const Upsampler& upsampler,
                        const float* const rgb[3], float* const c[3], std::uint64_t* unsolved, float* part,
                        std::size_t n) {
-  Group group;
+  SolvedGroup group;
   for (std::size_t block = 0; block < n / kLanes; ++block) {
     for (std::uint64_t left = unsolved[block]; left != 0; left &= left - 1) {
       const std::size_t lane = block * kLanes + static_cast<std::size_t>(std::countr_zero(left));
@@ -120,12 +117,13 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
                    const float* scale, float* spectra, std::size_t blocks, bool non_temporal) {
   const std::size_t bands = upsampler.bands().count();
   if (mixes_bases(upsampler)) {
-    kernels.smits_blocks(spectra, c, {UpsamplerAccess::table(upsampler), bands, upsampler.lowest()}, blocks, non_temporal);
+    kernels.smits_blocks(spectra, c, {UpsamplerAccess::table(upsampler), bands, upsampler.lowest()}, blocks,
+                         non_temporal);
     return;
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;
-  kernels.sigmoid_blocks(spectra, {c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, bands, white}, blocks,
-                         non_temporal);
+  kernels.sigmoid_blocks(spectra, {c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, bands, white},
+                         blocks, non_temporal);
 }
 
 }  // namespace spectile::rows

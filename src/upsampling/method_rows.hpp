@@ -26,6 +26,10 @@ struct RelighterAccess {
 
 namespace spectile::rows {
 
+/// Lanes that go through a method in one go: their coefficients stay in the first-level cache between being
+/// found and being used.
+inline constexpr std::size_t kChunk = 512;
+
 /// Coefficients of a row of lanes, where they are kept. For methods that mix basis spectra they are the RGB.
 struct Coefficients {
   float* c[3] = {nullptr, nullptr, nullptr};

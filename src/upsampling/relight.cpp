@@ -18,9 +18,6 @@ using kernels::kSmitsRow;
 
 constexpr double kRounding = 0x1p-24;
 
-// Lanes whose coefficients stay in the first-level cache between being found and being used.
-constexpr std::size_t kChunk = 512;
-
 }  // namespace
 
 Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector& under, const Matrix3& to) {
@@ -85,17 +82,17 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
     }
     return;
   }
-  alignas(64) float c[3][kChunk];
-  alignas(64) float scales[kChunk];
-  std::uint64_t unsolved[kChunk / kernels::kLanes];
+  alignas(64) float c[3][rows::kChunk];
+  alignas(64) float scales[rows::kChunk];
+  std::uint64_t unsolved[rows::kChunk / kernels::kLanes];
   const Coefficients found = {{c[0], c[1], c[2]}, has_scale(upsampler) ? scales : nullptr};
   const float* const read[3] = {c[0], c[1], c[2]};
   const Projector& projector = relighter.projector();
   const std::array<float, 9> matrix = color::to_float(relighter.matrix());
   const kernels::SigmoidSpectra spectra = {read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows,
                                            projector.bands().count(), false};
-  for (std::size_t at = 0; at < n; at += kChunk) {
-    const std::size_t lanes = std::min(kChunk, n - at);
+  for (std::size_t at = 0; at < n; at += rows::kChunk) {
+    const std::size_t lanes = std::min(rows::kChunk, n - at);
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
     const float* const xyz[3] = {to[0], to[1], to[2]};

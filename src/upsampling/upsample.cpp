@@ -17,14 +17,11 @@ static_assert(kLanesPerBlock == kernels::kLanes);
 // Larger batches are written with non-temporal stores: cached, they would only evict other data.
 constexpr std::size_t kStreamingBytes = std::size_t{64} << 20;
 
-// Lanes whose coefficients stay in the first-level cache between being found and being used.
-constexpr std::size_t kChunk = 512;
-
 /// Coefficients of a chunk.
 struct Chunk {
-  alignas(64) float c[3][kChunk];
-  alignas(64) float scale[kChunk];
-  std::uint64_t unsolved[kChunk / kLanesPerBlock];
+  alignas(64) float c[3][rows::kChunk];
+  alignas(64) float scale[rows::kChunk];
+  std::uint64_t unsolved[rows::kChunk / kLanesPerBlock];
 };
 
 Result<void> check(const Upsampler& upsampler, const ColorView& in, const SampledSpectraSpan& spectra) {
@@ -53,8 +50,8 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
   float* const c[3] = {chunk.c[0], chunk.c[1], chunk.c[2]};
   const float* const read[3] = {chunk.c[0], chunk.c[1], chunk.c[2]};
   const rows::Coefficients out = {{c[0], c[1], c[2]}, rows::has_scale(upsampler) ? chunk.scale : nullptr};
-  for (std::size_t block = first; block < first + count; block += kChunk / kLanesPerBlock) {
-    const std::size_t blocks = std::min(kChunk / kLanesPerBlock, first + count - block);
+  for (std::size_t block = first; block < first + count; block += rows::kChunk / kLanesPerBlock) {
+    const std::size_t blocks = std::min(rows::kChunk / kLanesPerBlock, first + count - block);
     const std::size_t at = block * kLanesPerBlock;
     const float* const source[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
     if (matrix != nullptr) table.transform3(c, source, matrix, blocks * kLanesPerBlock);

@@ -129,7 +129,7 @@ TEST(Evaluation, AllowsTheBoundAndNotMore) {
 
 TEST(Evaluation, KnowsOverflowAndWhatIsNotFinite) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   const auto value = [](const double* in, double* reference, double* scale) {
     reference[0] = in[0];
     scale[0] = std::abs(in[0]);
@@ -143,11 +143,11 @@ TEST(Evaluation, KnowsOverflowAndWhatIsNotFinite) {
   EXPECT_EQ(at(once, -1e39, kInfinity), kInfinity);
   EXPECT_EQ(at(once, 1e39, 3e38), kInfinity);
   EXPECT_EQ(at(sum, 1e39, kInfinity), kOutOfDomain);
-  EXPECT_EQ(at(once, kNan, kNan), 0);
-  EXPECT_EQ(at(once, kNan, 0), kInfinity);
+  EXPECT_EQ(at(once, kNotANumber, kNotANumber), 0);
+  EXPECT_EQ(at(once, kNotANumber, 0), kInfinity);
   EXPECT_EQ(at(once, kInfinity, kInfinity), 0);
   EXPECT_EQ(at(once, kInfinity, -kInfinity), kInfinity);
-  EXPECT_EQ(at(sum, kInfinity, kNan), 0);
+  EXPECT_EQ(at(sum, kInfinity, kNotANumber), 0);
   EXPECT_EQ(at(sum, kInfinity, 1), kInfinity);
 }
 

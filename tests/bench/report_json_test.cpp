@@ -14,14 +14,6 @@ namespace {
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const BenchmarkReport& full() {
-  static const BenchmarkReport report = made_up_report();
-  return report;
-}
-
 TEST(BenchmarkJson, HoldsEveryEntry) {
   const Json json = Json::parse(benchmark_to_json(full()));
   EXPECT_EQ(json["limits"].size(), full().limits.size());
@@ -62,7 +54,7 @@ TEST(BenchmarkJson, ComesBackBitForBit) {
 }
 
 TEST(BenchmarkJson, WritesNullForWhatIsNoNumber) {
-  for (const double x : {kNan, kInfinity, -kInfinity}) {
+  for (const double x : {kNotANumber, kInfinity, -kInfinity}) {
     const Json json = Json::parse(benchmark_to_json(filled_with(x, "text")));
     EXPECT_TRUE(json["ways"][0]["nanoseconds"].is_null());
     EXPECT_TRUE(json["stress"][0]["worst"].is_null());

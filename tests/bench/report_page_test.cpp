@@ -15,14 +15,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const BenchmarkReport& full() {
-  static const BenchmarkReport report = made_up_report();
-  return report;
-}
-
 const std::string& full_page() {
   static const std::string page = benchmark_to_html(full());
   return page;
@@ -157,7 +149,7 @@ TEST(BenchmarkPage, HasEveryMethodInATableAndInBothCharts) {
 
 TEST(BenchmarkPage, ListsTheFastestMethodsFirst) {
   BenchmarkReport r;
-  for (const double ns : {30.0, kNan, 0.2, 400.0, 5.0}) {
+  for (const double ns : {30.0, kNotANumber, 0.2, 400.0, 5.0}) {
     r.methods.push_back(
         {"job", "light", false, "family", fmt::format("at {}", ns), 0, ns, 0, 0, {1, 1, 1}, false});
   }
@@ -235,7 +227,7 @@ TEST(BenchmarkPage, CountsAWorstBeyondItsBoundOrNoNumberAsBeyond) {
   r.stress = {{"held", "", "u", 2, 2, 10, 0, ""}, {"exact", "", "u", 0, 0, 10, 0, ""}};
   EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond</span>"), 0U);
   r.stress = {{"worse", "", "u", 2, 2.1, 10, 0, ""},
-              {"odd", "", "u", 2, kNan, 10, 0, ""},
+              {"odd", "", "u", 2, kNotANumber, 10, 0, ""},
               {"few", "", "u", 2, 1, 10, 1, ""}};
   EXPECT_EQ(count_of(benchmark_to_html(r), ">beyond</span>"), 3U);
 }
@@ -292,7 +284,7 @@ TEST(BenchmarkPage, MendsTextThatIsNoUtf8) {
 }
 
 TEST(BenchmarkPage, WritesNoNumberThatIsNone) {
-  for (const double x : {kNan, kInfinity, -kInfinity}) {
+  for (const double x : {kNotANumber, kInfinity, -kInfinity}) {
     const std::string page = benchmark_to_html(filled_with(x, "xyz"));
     EXPECT_EQ(flaw_in_tags(page), "");
     std::string lower = part(page, "<body>", "</body>");

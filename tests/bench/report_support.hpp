@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <spectile/bench/benchmark.hpp>
 #include <string>
@@ -254,6 +255,15 @@ inline BenchmarkReport filled_with(double x, const std::string& text) {
   r.stress = {{text, text, text, x, x, 10, 0, text}};
   r.advice = {{text, text, text}, {text, "", text}};
   return r;
+}
+
+inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The same one at every call.
+inline const BenchmarkReport& full() {
+  static const BenchmarkReport report = made_up_report();
+  return report;
 }
 
 }  // namespace spectile::test

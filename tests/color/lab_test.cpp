@@ -5,13 +5,11 @@
 #include <spectile/color/color_difference.hpp>
 #include <spectile/color/colorimetry.hpp>
 
+#include "tests/color/white.hpp"
 #include "tests/support/lanes.hpp"
 
 namespace spectile::test {
 namespace {
-
-// IEC 61966-2-1:1999: D65 at chromaticity (0.3127, 0.3290).
-constexpr std::array<double, 3> kWhite = {0.3127 / 0.3290, 1.0, (1.0 - 0.3127 - 0.3290) / 0.3290};
 
 void expect_lab(const Lab& got, const Lab& want, double tolerance) {
   EXPECT_NEAR(got.l, want.l, tolerance);

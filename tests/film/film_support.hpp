@@ -18,6 +18,18 @@ inline FilmOptions small_film() {
   return o;
 }
 
+/// A film whose contributions are the samples themselves.
+inline FilmOptions plain_film(int side, int range) {
+  FilmOptions o;
+  o.width = o.height = side;
+  o.input = FilmInput::kBands;
+  o.spectral = true;
+  o.xyz.reset();
+  o.bands = *Bands::uniform(555, 556, 1);
+  o.range = range;
+  return o;
+}
+
 /// Samples with four wavelengths each, at any address: radiance 1, uniform densities.
 class FilmSamples {
  public:

@@ -7,18 +7,6 @@
 namespace spectile::test {
 namespace {
 
-/// A film whose contributions are the samples themselves.
-FilmOptions plain_film(int side) {
-  FilmOptions o;
-  o.width = o.height = side;
-  o.input = FilmInput::kBands;
-  o.spectral = true;
-  o.xyz.reset();
-  o.bands = *Bands::uniform(555, 556, 1);
-  o.range = 0;
-  return o;
-}
-
 /// n samples at one pixel whose rests are as large as can be.
 BandBatch with_large_rests(std::size_t n) {
   BandBatch b(1, n);
@@ -46,8 +34,8 @@ TEST(FilmMerge, BatchesThatEndWhereRestsAreCarriedOver) {
   constexpr std::size_t kCarriedAfter = std::size_t{1} << 18;
   for (const std::size_t more : {1U, 64U, 1000U, 1024U, 5000U}) {
     const BandBatch b = with_large_rests(kCarriedAfter + more);
-    Film one = *Film::create(plain_film(8));
-    Film other = *Film::create(plain_film(8));
+    Film one = *Film::create(plain_film(8, 0));
+    Film other = *Film::create(plain_film(8, 0));
     add_in_batches(one, b, kCarriedAfter + more);
     add_in_batches(other, b, 100000);
     EXPECT_TRUE(one.same_contents(other)) << more;
@@ -57,9 +45,9 @@ TEST(FilmMerge, BatchesThatEndWhereRestsAreCarriedOver) {
 TEST(FilmMerge, AFilmIsWhatItsMergedPartsAreAtTheCarry) {
   constexpr std::size_t kN = (std::size_t{1} << 18) + 1024;
   const BandBatch b = with_large_rests(kN);
-  Film one = *Film::create(plain_film(8));
+  Film one = *Film::create(plain_film(8, 0));
   add_in_batches(one, b, kN);
-  Film empty = *Film::create(plain_film(8));
+  Film empty = *Film::create(plain_film(8, 0));
   ASSERT_TRUE(empty.merge(one));
   EXPECT_TRUE(one.same_contents(empty));
 }
@@ -74,7 +62,7 @@ Film cancelling() {
     b.radiance(0, i) = i % 3 == 0 ? 1.4F * 0x1p-31F : -0.7F * 0x1p-31F;
   }
   b.radiance(0, kN - 1) = 3 * 0x1p-75F;
-  Film film = *Film::create(plain_film(8));
+  Film film = *Film::create(plain_film(8, 0));
   EXPECT_TRUE(film.add(b.samples()));
   return film;
 }
@@ -82,7 +70,7 @@ Film cancelling() {
 TEST(FilmMerge, DevelopedBitsDoNotDependOnWhatWasCarriedOver) {
   const Film film = cancelling();
   const auto before = developed(film, FilmLayer::kSpectrum);
-  Film copy = *Film::create(plain_film(8));
+  Film copy = *Film::create(plain_film(8, 0));
   ASSERT_TRUE(copy.merge(film));  // carries over on the way
   const auto after = developed(copy, FilmLayer::kSpectrum);
   EXPECT_EQ(after[3 * 8 + 3], static_cast<float>(3 * 0x1p-75 / 9001));
@@ -156,10 +144,10 @@ TEST(FilmMerge, RestsOfEitherSignAddUpAcrossManyCarries) {
     b.radiance(0, i) = (i / 1000) % 3 == 0 ? down : up;
     sum += static_cast<double>(b.radiance(0, i));
   }
-  Film film = *Film::create(plain_film(8));
+  Film film = *Film::create(plain_film(8, 0));
   ASSERT_TRUE(film.add(b.samples()));
   EXPECT_EQ(developed(film, FilmLayer::kSpectrum)[3 * 8 + 3], static_cast<float>(sum / kN));
-  Film other = *Film::create(plain_film(8));
+  Film other = *Film::create(plain_film(8, 0));
   add_in_batches(other, b, 77777);
   EXPECT_TRUE(film.same_contents(other));
 }

@@ -6,20 +6,9 @@
 namespace spectile::test {
 namespace {
 
-FilmOptions plain_film(int range) {
-  FilmOptions o;
-  o.width = o.height = 4;
-  o.input = FilmInput::kBands;
-  o.spectral = true;
-  o.xyz.reset();
-  o.bands = *Bands::uniform(555, 556, 1);
-  o.range = range;
-  return o;
-}
-
 TEST(FilmRange, ContributionsAreExactAtEveryRange) {
   for (const int range : {-32, -1, 0, 32, 96}) {
-    Film film = *Film::create(plain_film(range));
+    Film film = *Film::create(plain_film(4, range));
     // The range itself, its negative and what is just beyond; the least exact one.
     const float most = std::ldexp(1.0F, range);
     BandBatch b(1, 4);
@@ -40,7 +29,7 @@ TEST(FilmRange, ContributionsAreExactAtEveryRange) {
 
 TEST(FilmRange, WeightsAreExactAtEveryRange) {
   for (const int range : {-16, 0, 16, 32}) {
-    FilmOptions o = plain_film(32);
+    FilmOptions o = plain_film(4, 32);
     o.weight_range = range;
     Film film = *Film::create(o);
     const float most = std::ldexp(1.0F, range);
@@ -61,7 +50,7 @@ TEST(FilmRange, NoComponentIsAboveTheMaximumByMoreThanRounding) {
   for (const float maximum : {1e-12F, 1e-3F, 0.1F, 1.0F, 3.3F, 1e20F}) {
     for (const float value : {1.5F, 1e3F, 7.77e10F, 3e30F, 3e38F}) {
       for (const auto input : {FilmInput::kBands, FilmInput::kWavelengths}) {
-        FilmOptions o = plain_film(std::max(-32, std::ilogb(maximum) + 8));
+        FilmOptions o = plain_film(4, std::max(-32, std::ilogb(maximum) + 8));
         o.input = input;
         o.xyz = Observer::kCie1931;
         o.bands = *Bands::uniform(500, 600, 50);
@@ -100,7 +89,7 @@ TEST(FilmRange, NoComponentIsAboveTheMaximumByMoreThanRounding) {
 }
 
 TEST(FilmRange, ClampedColoursKeepTheirProportions) {
-  FilmOptions o = plain_film(16);
+  FilmOptions o = plain_film(4, 16);
   o.xyz = Observer::kCie1931;
   o.spectral = false;
   o.bands = *Bands::uniform(500, 600, 50);

@@ -9,7 +9,7 @@ namespace spectile::test {
 namespace {
 
 constexpr std::size_t kThreads = 8;
-constexpr std::size_t kBatch = 700;
+constexpr std::size_t kSmallBatch = 700;
 
 FilmOptions busy_film(SamplePlacement placement) {
   FilmOptions o;
@@ -31,8 +31,8 @@ void add_while(Film& film, const FilmSamples& samples, std::size_t rounds, Meanw
   for (std::size_t t = 0; t < kThreads; ++t) {
     workers.emplace_back([&, t] {
       for (std::size_t round = 0; round < rounds; ++round) {
-        for (std::size_t i = t * kBatch; i < samples.size(); i += kThreads * kBatch) {
-          EXPECT_TRUE(film.add(samples.wavelengths(i, std::min(kBatch, samples.size() - i))));
+        for (std::size_t i = t * kSmallBatch; i < samples.size(); i += kThreads * kSmallBatch) {
+          EXPECT_TRUE(film.add(samples.wavelengths(i, std::min(kSmallBatch, samples.size() - i))));
         }
       }
       --running;
@@ -78,7 +78,7 @@ TEST(FilmThreads, DevelopedMeanwhile) {
 TEST(FilmThreads, SavedMeanwhileFilesHoldWholeBatches) {
   const std::string path = testing::TempDir() + "film_threads_saved.exr";
   const FilmOptions o = busy_film(SamplePlacement::kOnePixel);
-  FilmSamples samples(kThreads * kBatch);
+  FilmSamples samples(kThreads * kSmallBatch);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples.put(i, 3.5F + static_cast<float>(i % 40), 6.5F + static_cast<float>(i % 37), 1);
   }
@@ -89,7 +89,7 @@ TEST(FilmThreads, SavedMeanwhileFilesHoldWholeBatches) {
     ASSERT_TRUE(report) << report.error().message;
     const auto loaded = load_film(path);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->film.stats().accepted % kBatch, 0U);
+    EXPECT_EQ(loaded->film.stats().accepted % kSmallBatch, 0U);
     double weights = 0;
     for (const float w : developed(loaded->film, FilmLayer::kWeight)) weights += static_cast<double>(w);
     EXPECT_EQ(weights, static_cast<double>(loaded->film.stats().accepted));

@@ -14,7 +14,7 @@ constexpr float kLuminance[3] = {0.2126F, 0.7152F, 0.0722F};
 
 /// Three planes of n: every triple of telling values in an order that mixes them, then colours in and about
 /// the cube.
-Floats telling_colors(std::size_t n, std::uint32_t seed) {
+Floats gamut_colors(std::size_t n, std::uint32_t seed) {
   const float values[] = {0.0F,   -0.0F, 0.5F,  1.0F, 1.0F + 0x1p-23F, -kTiny, kTiny, -1.0F, 2.0F, 1e-4F,
                           -1e-4F, kInf,  -kInf, kNan, kMost,           -kMost, 0.3F};
   constexpr std::size_t kCount = std::size(values);
@@ -46,7 +46,7 @@ TEST_P(GamutKernels, ClipsAreTheReferencesForEveryKindOfColor) {
   const float limits[][2] = {{0, 1}, {0, kInf}, {-kInf, kInf}, {0.25F, 0.25F}, {-0.5F, 2.0F}, {kTiny, kMost}};
   const Floats arbitrary = arbitrary_floats(3, 1);
   for (const std::size_t lanes : kSizes) {
-    const Floats rgb = telling_colors(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
+    const Floats rgb = gamut_colors(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
     for (const auto& [low, high] : limits) {
       for (const float* weights : {kLuminance, arbitrary.data()}) {
         const Clipped got = clipped(k(), rgb, weights, low, high);
@@ -80,7 +80,7 @@ TEST_P(GamutKernels, FoldsAreTheReferencesAlsoInPlace) {
         arbitrary ? arbitrary_floats(3 * kSmitsRow, 3) : plain_floats(3 * kSmitsRow, 4, -0.5F, 1.5F);
     for (const std::size_t lanes : kSizes) {
       const std::size_t n = blocks_for(lanes) * kLanes;
-      const Floats rgb = telling_colors(n, 5);
+      const Floats rgb = gamut_colors(n, 5);
       const float* const in[3] = {rgb.data(), rgb.data() + n, rgb.data() + 2 * n};
       const auto fold = [&](const KernelTable& t, Floats& dst, bool in_place) {
         float* const out[3] = {dst.data(), dst.data() + n, dst.data() + 2 * n};

@@ -34,7 +34,7 @@ SigmoidTable default_table() {
 
 /// Three planes of n: triples of telling values (cube corners, edges and faces, near black and near white,
 /// just and far outside the cube, no colour at all) in an order that mixes them, between ordinary colours.
-Floats telling_colors(std::size_t n, std::uint32_t seed) {
+Floats sigmoid_colors(std::size_t n, std::uint32_t seed) {
   const float values[] = {0.0F,  -0.0F,    kTiny, 0x1p-26F, 0x1p-25F, 1e-4F, 0.02F, 0.5F, 1.0F - 0x1p-24F,
                           1.0F,  1.00001F, 1.2F,  -1e-3F,   -0.3F,    70000, kMost, kNan, kInf,
                           -kInf, 0.25F,    0.9F,  -kTiny};
@@ -97,14 +97,14 @@ class SigmoidKernels : public KernelTest {
 };
 
 TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryKindOfColour) {
-  expect_same_solutions(default_table(), telling_colors(4160, 1));
+  expect_same_solutions(default_table(), sigmoid_colors(4160, 1));
   for (const std::size_t lanes : kSizes) {
     expect_same_solutions(default_table(), plain_floats(3 * blocks_for(lanes) * kLanes, 2, -0.05F, 1.05F));
   }
 }
 
 TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryCountOfBands) {
-  const Floats rgb = telling_colors(10 * kLanes, 3);
+  const Floats rgb = sigmoid_colors(10 * kLanes, 3);
   for (std::size_t bands = 1; bands <= 65; ++bands) {
     SCOPED_TRACE(bands);
     expect_same_solutions(sigmoid_table(bands), rgb);
@@ -120,12 +120,12 @@ TEST_P(SigmoidKernels, SolutionsAreTheReferencesForTablesOfAnyBits) {
     const Floats rows = floats(9 * kSigmoidRow, 11);
     const Floats weights = floats(4 * 9, 12);
     const Floats nodes = floats(3 * kSteps * kSteps * kSteps * kSigmoidNode, 13);
-    expect_same_solutions({9, rows.data(), weights.data(), nodes.data(), kSteps}, telling_colors(640, 4));
+    expect_same_solutions({9, rows.data(), weights.data(), nodes.data(), kSteps}, sigmoid_colors(640, 4));
   }
 }
 
 TEST_P(SigmoidKernels, SolutionsMayReplaceTheirColours) {
-  const Floats rgb = telling_colors(1280, 5);
+  const Floats rgb = sigmoid_colors(1280, 5);
   const std::size_t n = rgb.size() / 3;
   const Solved want = solved(k(), default_table(), rgb);
   Floats c(std::span(rgb.data(), rgb.size()));
@@ -138,7 +138,7 @@ TEST_P(SigmoidKernels, SolutionsMayReplaceTheirColours) {
 
 TEST_P(SigmoidKernels, ALaneDoesNotDependOnItsNeighbours) {
   const std::size_t n = 4160;
-  const Floats rgb = telling_colors(n, 6);
+  const Floats rgb = sigmoid_colors(n, 6);
   const Solved straight = solved(k(), default_table(), rgb);
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0U);

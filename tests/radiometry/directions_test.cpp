@@ -11,22 +11,14 @@
 #include <spectile/radiometry/directions.hpp>
 #include <vector>
 
+#include "tests/radiometry/drawn_numbers.hpp"
+
 namespace spectile::test {
 namespace {
 
 using std::numbers::pi;
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-
-const int kSeeded = ::setenv("RC_PARAMS", "seed=20240229 max_success=200", 0);
-
-/// A multiple of 2^-30 from low to high.
-double between(double low, double high) {
-  const int step = *rc::gen::inRange(0, (1 << 30) + 1);
-  return low + (high - low) * (step * 0x1p-30);
-}
 
 /// Any direction, poles and axes among them.
 Vector3 any_direction() {

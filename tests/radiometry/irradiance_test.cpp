@@ -11,21 +11,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/radiometry/drawn_numbers.hpp"
 #include "tests/support/lanes.hpp"
 
 namespace spectile::test {
 namespace {
 
 using std::numbers::pi;
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const int kSeeded = ::setenv("RC_PARAMS", "seed=20240229 max_success=200", 0);
-
-double between(double low, double high) {
-  const int step = *rc::gen::inRange(0, (1 << 30) + 1);
-  return low + (high - low) * (step * 0x1p-30);
-}
 
 /// A lamp above a table: facing down, the receiver at the origin facing up.
 DiskEmitter disk_above(double height, double radius, double aside = 0) {

@@ -10,10 +10,10 @@
 #include <spectile/units.hpp>
 #include <type_traits>
 
+#include "tests/radiometry/drawn_numbers.hpp"
+
 namespace spectile::test {
 namespace {
-
-const int kSeeded = ::setenv("RC_PARAMS", "seed=20240229 max_success=200", 0);
 
 template <class A, class B>
 concept Addable = requires(A a, B b) {
@@ -81,7 +81,6 @@ TEST(Units, DefaultIsZero) {
 }
 
 TEST(Units, SpecialNumbersGoThrough) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ((Radiance(1) / 0).value(), kInfinity);
   EXPECT_EQ((Irradiance(-1) / SolidAngle(0)).value(), -kInfinity);
   EXPECT_EQ((Radiance(1e300) * 1e300).value(), kInfinity);

@@ -8,7 +8,7 @@
 namespace spectile::test {
 namespace {
 
-constexpr Method kMethods[] = {Method::kSmitsExact, Method::kMallett};
+constexpr Method kExactMethods[] = {Method::kSmitsExact, Method::kMallett};
 constexpr Quantity kQuantities[] = {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant};
 
 /// Calls f for both methods, every quantity, several bands, lights and observers.
@@ -23,7 +23,7 @@ void for_many(F f) {
       {"400:700:5", "D65", Observer::kCie1931},  {"380:780:5", "D65", Observer::kCie1931},
       {"400:700:10", "D65", Observer::kCie1931}, {"380:780:5", "A", Observer::kCie1931},
       {"400:700:5", "D50", Observer::kCie1931},  {"400:700:5", "D65", Observer::kCie1964}};
-  for (const Method method : kMethods) {
+  for (const Method method : kExactMethods) {
     for (const Quantity quantity : kQuantities) {
       for (const Setting& setting : settings) {
         UpsamplerOptions options;
@@ -50,14 +50,14 @@ TEST(ExactMethods, TheCubesColoursReturn) {
 }
 
 TEST(ExactMethods, TheCubesColoursReturnOnAFineGrid) {
-  for (const Method method : kMethods) {
+  for (const Method method : kExactMethods) {
     const auto upsampler = *Upsampler::create(method, Quantity::kReflectance, Bands());
     expect_exact(upsampler, cube_grid(65));
   }
 }
 
 TEST(ExactMethods, ColoursNearBlackAndAboveOneReturnAsWell) {
-  for (const Method method : kMethods) {
+  for (const Method method : kExactMethods) {
     const auto upsampler = *Upsampler::create(method, Quantity::kUnbounded, Bands());
     for (const float scale : {1e-30F, 1e-6F, 1e-3F, 10.0F, 1e6F, 1e30F}) {
       auto rgb = cube_grid(9);
@@ -105,7 +105,7 @@ TEST(ExactMethods, CornersAreTheBasesThemselves) {
 
 TEST(ExactMethods, TheStoredTablesAreWhatTheProgramsFind) {
   const auto space = *working_space(Bands(), false, kRec709, *illuminant("D65"), Observer::kCie1931);
-  for (const Method method : kMethods) {
+  for (const Method method : kExactMethods) {
     const auto found = method == Method::kSmitsExact ? smoothest_basis(Bands(), space)
                                                      : primary_decomposition(Bands(), space);
     ASSERT_TRUE(found);
@@ -162,7 +162,7 @@ TEST(ExactMethods, SpacesWithinSrgbWork) {
 
 TEST(ExactMethods, FewBandsAreErrorsThatNameAnotherMethod) {
   for (const char* text : {"550", "500,600", "450,550,610", "450,500,550,610"}) {
-    for (const Method method : kMethods) {
+    for (const Method method : kExactMethods) {
       const auto upsampler = Upsampler::create(method, Quantity::kReflectance, *Bands::parse(text));
       ASSERT_EQ(code_of(upsampler), code(ErrorCode::kBadArgument)) << text;
       EXPECT_THAT(upsampler.error().message, testing::HasSubstr("smits takes any bands"));

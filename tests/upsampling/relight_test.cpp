@@ -6,8 +6,8 @@
 namespace spectile::test {
 namespace {
 
-constexpr Method kMethods[] = {Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett,
-                               Method::kSigmoid};
+constexpr Method kRelitMethods[] = {Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett,
+                                    Method::kSigmoid};
 
 ColorLanes colors(std::size_t lanes, float low, float high, std::uint32_t seed) {
   auto rgb = *ColorLanes::create(lanes);
@@ -87,7 +87,7 @@ TEST_P(Relighting, DoesNotDependOnThreadsOrTiles) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryMethod, Relighting, testing::ValuesIn(kMethods), [](const auto& one) {
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Relighting, testing::ValuesIn(kRelitMethods), [](const auto& one) {
   std::string name(to_string(one.param));
   std::erase(name, '-');
   return name;
@@ -124,7 +124,7 @@ TEST(Relighter, NeitherLightNorOtherBandsNorOtherSizesAreTaken) {
 TEST(Relighter, NanStaysNan) {
   const Bands bands;
   const auto under = *Projector::reflective(bands, *illuminant("A"));
-  for (const Method method : kMethods) {
+  for (const Method method : kRelitMethods) {
     const auto upsampler = *Upsampler::create(method, Quantity::kReflectance, bands);
     const auto relighter = *Relighter::create(upsampler, under, under.xyz_to_srgb());
     auto rgb = colors(2, 0.1F, 0.9F, 5);

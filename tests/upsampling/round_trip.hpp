@@ -108,4 +108,20 @@ inline RoundTrip round_trip(const Upsampler& upsampler, const ColorLanes& rgb, b
   return out;
 }
 
+inline CoefficientLanes coefficients_of(const Upsampler& upsampler, const ColorLanes& rgb,
+                                        const Execution& execution = {}) {
+  auto out = *CoefficientLanes::create(upsampler, rgb.lanes());
+  EXPECT_TRUE(coefficients(upsampler, rgb.view(), out, execution));
+  return out;
+}
+
+/// Colours whose components are the values, repeated.
+inline ColorLanes colors(std::size_t lanes, const Floats& values) {
+  auto rgb = *ColorLanes::create(lanes);
+  for (std::size_t i = 0; i < lanes; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = values[(3 * i + k) % values.size()];
+  }
+  return rgb;
+}
+
 }  // namespace spectile::test

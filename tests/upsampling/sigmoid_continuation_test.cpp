@@ -12,8 +12,8 @@ namespace {
 using kernels::KernelTable;
 using kernels::SigmoidTable;
 
-Upsampler sigmoid(const char* bands = "400:700:5", const char* space = "srgb", const char* light = "D65",
-                  Quantity quantity = Quantity::kReflectance) {
+Upsampler sigmoid_on(const char* bands = "400:700:5", const char* space = "srgb", const char* light = "D65",
+                     Quantity quantity = Quantity::kReflectance) {
   UpsamplerOptions options;
   options.primaries = rgb_space(space)->chromaticities;
   options.light = *illuminant(light);
@@ -75,7 +75,7 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
     rgb[2 * kAll + i] = values[i / kCount / kCount];
   }
   for (const char* space : {"srgb", "acescg"}) {
-    const auto upsampler = sigmoid("400:700:10", space);
+    const auto upsampler = sigmoid_on("400:700:10", space);
     Floats plain = plain_floats(3 * 4160, 2, -0.2F, 1.1F);
     for (const Floats* colors : {&rgb, &plain}) {
       const Reached got = reached(k(), upsampler, *colors);
@@ -87,7 +87,7 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
 }
 
 TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
-  const auto upsampler = sigmoid();
+  const auto upsampler = sigmoid_on();
   Floats rgb(3 * 64);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<float>(i % 64) / 63;
   const Reached got = reached(k(), upsampler, rgb);
@@ -107,7 +107,7 @@ TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
 SPECTILE_FOR_EVERY_ISA(SigmoidContinuation);
 
 TEST(SigmoidContinuation, TheCubeIsReachedWithoutTheQuickSearch) {
-  const auto upsampler = sigmoid();
+  const auto upsampler = sigmoid_on();
   const auto grid = cube_grid(9);
   for (std::size_t i = 0; i < grid.lanes(); ++i) {
     const float rgb[3] = {grid.at(i, 0), grid.at(i, 1), grid.at(i, 2)};
@@ -125,7 +125,7 @@ TEST(SigmoidContinuation, DarkPurplesOverWideRangesReturn) {
                              {9.11250117e-6F, 0, 4.55625059e-6F},
                              {8.61131468e-8F, 0, 1.23018786e-8F}});
   for (const char* bands : {"380:780:5", "360:830:5"}) {
-    const auto upsampler = sigmoid(bands);
+    const auto upsampler = sigmoid_on(bands);
     EXPECT_LE(round_trip(upsampler, rgb).rgb, 2.5e-7) << bands;
     EXPECT_EQ(unsolved(upsampler, rgb), 0U) << bands;
   }
@@ -148,7 +148,7 @@ ColorLanes saturated_down_to(int levels) {
 
 TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
   for (const char* bands : {"380:780:5", "360:830:5"}) {
-    const auto upsampler = sigmoid(bands);
+    const auto upsampler = sigmoid_on(bands);
     EXPECT_EQ(unsolved(upsampler, saturated_down_to(20)), 0U) << bands;
     // Still darker, rounding may hide the way, but not the colour.
     EXPECT_LE(round_trip(upsampler, saturated_down_to(24)).rgb, 1e-6) << bands;
@@ -158,7 +158,7 @@ TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
 TEST(SigmoidContinuation, WhatMissesIsReported) {
   // In the cubes of wide primaries.
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
-    const auto upsampler = sigmoid("380:780:5", space);
+    const auto upsampler = sigmoid_on("380:780:5", space);
     const auto grid = cube_grid(17);
     auto out = *CoefficientLanes::create(upsampler, grid.lanes());
     ASSERT_TRUE(coefficients(upsampler, grid.view(), out));
@@ -174,12 +174,12 @@ TEST(SigmoidContinuation, WhatMissesIsReported) {
 
 TEST(SigmoidContinuation, ColoursOfSigmoidsAreSolved) {
   // Those of c = (-4.68274, 5.64237, 3.48688); (-5.36523, 9.02882, 0.827151); (-5.21705, 8.56587, 0.0522521).
-  EXPECT_EQ(unsolved(sigmoid("380:780:5", "acescg"), lanes_of({{0.948412836F, 1.00075197F, 0.165978804F}})),
-            0U);
-  EXPECT_EQ(unsolved(sigmoid("380:780:5", "acescg", "FL11"),
+  EXPECT_EQ(
+      unsolved(sigmoid_on("380:780:5", "acescg"), lanes_of({{0.948412836F, 1.00075197F, 0.165978804F}})), 0U);
+  EXPECT_EQ(unsolved(sigmoid_on("380:780:5", "acescg", "FL11"),
                      lanes_of({{0.937835217F, 0.737627983F, 0.0199290421F}})),
             0U);
-  EXPECT_EQ(unsolved(sigmoid("380:780:5", "rec2020", "FL11"),
+  EXPECT_EQ(unsolved(sigmoid_on("380:780:5", "rec2020", "FL11"),
                      lanes_of({{0.889452815F, 0.487919688F, -0.0109059243F}})),
             0U);
 }
@@ -189,7 +189,7 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 4);
   for (const char* space : {"srgb", "rec2020", "acescg"}) {
-    const auto upsampler = sigmoid("380:780:5", space);
+    const auto upsampler = sigmoid_on("380:780:5", space);
     const kernels::SigmoidTable& table = UpsamplerAccess::sigmoid(upsampler)->table;
     std::vector<Rgb> colors;
     for (int i = 0; i < 4000; ++i) {
@@ -211,7 +211,7 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
 
 TEST(SigmoidContinuation, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
-    const auto upsampler = sigmoid("380:780:5", space);
+    const auto upsampler = sigmoid_on("380:780:5", space);
     const auto grid = cube_grid(17);
     const auto back = returned(upsampler, grid);
     for (std::size_t i = 0; i < grid.lanes(); ++i) {
@@ -226,13 +226,13 @@ TEST(SigmoidContinuation, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
 }
 
 TEST(SigmoidContinuation, FewBandsAreNoFurtherAwayThanGreyEither) {
-  const auto few = sigmoid("380.3,395.1,401,450.7,455,530,545,560,590,620,622,650,690");
+  const auto few = sigmoid_on("380.3,395.1,401,450.7,455,530,545,560,590,620,622,650,690");
   EXPECT_LE(round_trip(few, lanes_of({{0, 1, 1}})).rgb, 0.8);
 }
 
 TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
-    const auto upsampler = sigmoid("380:780:5", "rec2020", "D65", quantity);
+    const auto upsampler = sigmoid_on("380:780:5", "rec2020", "D65", quantity);
     auto rgb = cube_grid(9);
     const std::uint64_t before = unsolved(upsampler, rgb);
     EXPECT_GE(before, 10U);
@@ -243,7 +243,7 @@ TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
 }
 
 TEST(SigmoidContinuation, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
-  const auto upsampler = sigmoid("400:700:5", "acescg");
+  const auto upsampler = sigmoid_on("400:700:5", "acescg");
   const auto rgb = cube_grid(9);
   auto moved = cube_grid(9);
   ASSERT_TRUE(gamut_clip(upsampler, moved.span()));
@@ -252,7 +252,7 @@ TEST(SigmoidContinuation, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
 }
 
 TEST(SigmoidContinuation, FiniteColoursOfUnboundedOnesStayFinite) {
-  const auto upsampler = sigmoid("400:700:5", "srgb", "D65", Quantity::kUnbounded);
+  const auto upsampler = sigmoid_on("400:700:5", "srgb", "D65", Quantity::kUnbounded);
   const auto rgb = lanes_of({{2e38F, 1e38F, 1e38F}, {kMost, 0, 1e38F}, {kMost, kMost, kMost}});
   const auto spectra = spectra_of(upsampler, rgb);
   for (std::size_t b = 0; b < 60; ++b) {

@@ -15,13 +15,6 @@ const Upsampler& sigmoid() {
   return upsampler;
 }
 
-CoefficientLanes coefficients_of(const Upsampler& upsampler, const ColorLanes& rgb,
-                                 const Execution& execution = {}) {
-  auto out = *CoefficientLanes::create(upsampler, rgb.lanes());
-  EXPECT_TRUE(coefficients(upsampler, rgb.view(), out, execution));
-  return out;
-}
-
 /// The cube's grid brought near black, or near white.
 ColorLanes near_black(std::size_t n, float part) {
   auto rgb = cube_grid(n);

@@ -7,20 +7,13 @@
 #include "src/reference/oracle/oracle.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "tests/support/lanes.hpp"
+#include "tests/upsampling/round_trip.hpp"
 
 namespace spectile::test {
 namespace {
 
 Upsampler smits(NegativeSamples negative = NegativeSamples::kClampToZero, const Bands& bands = Bands()) {
   return *Upsampler::create(Method::kSmits, Quantity::kReflectance, bands, negative);
-}
-
-ColorLanes colors(std::size_t lanes, const Floats& values) {
-  auto rgb = *ColorLanes::create(lanes);
-  for (std::size_t i = 0; i < lanes; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = values[(3 * i + k) % values.size()];
-  }
-  return rgb;
 }
 
 TEST(SmitsBatches, NanInAnyComponentIsNanInEveryBand) {

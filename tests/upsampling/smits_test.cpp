@@ -7,30 +7,23 @@
 #include "src/reference/oracle/oracle.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "tests/support/lanes.hpp"
+#include "tests/upsampling/round_trip.hpp"
 
 namespace spectile::test {
 namespace {
 
-constexpr Method kMethods[] = {Method::kSmits, Method::kSmits1999};
-constexpr Quantity kQuantities[] = {Quantity::kReflectance, Quantity::kIlluminant};
+constexpr Method kSmitsMethods[] = {Method::kSmits, Method::kSmits1999};
+constexpr Quantity kSmitsQuantities[] = {Quantity::kReflectance, Quantity::kIlluminant};
 
 /// Calls f for every method and quantity, over the default bands.
 template <class F>
 void for_every_kind(F f, NegativeSamples negative = NegativeSamples::kClampToZero) {
-  for (const Method method : kMethods) {
-    for (const Quantity quantity : kQuantities) {
+  for (const Method method : kSmitsMethods) {
+    for (const Quantity quantity : kSmitsQuantities) {
       SCOPED_TRACE(std::string(to_string(method)) + " " + std::string(to_string(quantity)));
       f(*Upsampler::create(method, quantity, Bands(), negative));
     }
   }
-}
-
-ColorLanes colors(std::size_t lanes, const Floats& values) {
-  auto rgb = *ColorLanes::create(lanes);
-  for (std::size_t i = 0; i < lanes; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) rgb.at(i, k) = values[(3 * i + k) % values.size()];
-  }
-  return rgb;
 }
 
 SampledSpectra upsampled(const Upsampler& upsampler, const ColorLanes& rgb) {
@@ -54,8 +47,8 @@ double largest_basis_value(const Upsampler& upsampler) {
 TEST(Upsampler, BasesAgreeWithTheOracle) {
   for (const Bands& bands : {Bands(), *Bands::uniform(380, 780, 5), *Bands::uniform(350, 850, 10),
                              *Bands::parse("380.3,395.1,401,450.7,455,530,620,622")}) {
-    for (const Method method : kMethods) {
-      for (const Quantity quantity : kQuantities) {
+    for (const Method method : kSmitsMethods) {
+      for (const Quantity quantity : kSmitsQuantities) {
         const auto upsampler = *Upsampler::create(method, quantity, bands);
         const auto exact = oracle::smits_basis(method, quantity, bands);
         // Both integrate exactly, in double; but for the ten samples times D65, which the oracle sums at 0.01
@@ -87,8 +80,8 @@ TEST(Upsampler, RemembersWhatItIsFor) {
 }
 
 TEST(Upsampler, NamesGoThereAndBack) {
-  for (const Method method : kMethods) EXPECT_EQ(*parse_method(to_string(method)), method);
-  for (const Quantity quantity : kQuantities) EXPECT_EQ(*parse_quantity(to_string(quantity)), quantity);
+  for (const Method method : kSmitsMethods) EXPECT_EQ(*parse_method(to_string(method)), method);
+  for (const Quantity quantity : kSmitsQuantities) EXPECT_EQ(*parse_quantity(to_string(quantity)), quantity);
   EXPECT_EQ(*parse_method("smits"), Method::kSmits);
   EXPECT_EQ(*parse_method("smits1999"), Method::kSmits1999);
   EXPECT_EQ(*parse_quantity("reflectance"), Quantity::kReflectance);
@@ -226,17 +219,17 @@ TEST(Smits, ClampedSamplesAreNeverBelowZeroAndKeptOnesSometimesAre) {
 TEST(Smits, CornersOfTheCubeRoundTripAsWellAsTheMethodCan) {
   // Measured over 380:780:5, reflectances under D65, lights as they are; bounds 1 % above. The first is of
   // the chromatic corners, the second of white.
-  struct Case {
+  struct ReturnCase {
     Method method;
     Quantity quantity;
     double chromatic, white;
   };
-  const Case cases[] = {{Method::kSmits, Quantity::kReflectance, 0.03321, 0.00189},
-                        {Method::kSmits, Quantity::kIlluminant, 0.12307, 0.08267},
-                        {Method::kSmits1999, Quantity::kReflectance, 0.09778, 0.00069},
-                        {Method::kSmits1999, Quantity::kIlluminant, 0.09793, 0.00085}};
+  const ReturnCase cases[] = {{Method::kSmits, Quantity::kReflectance, 0.03321, 0.00189},
+                              {Method::kSmits, Quantity::kIlluminant, 0.12307, 0.08267},
+                              {Method::kSmits1999, Quantity::kReflectance, 0.09778, 0.00069},
+                              {Method::kSmits1999, Quantity::kIlluminant, 0.09793, 0.00085}};
   const Bands bands = *Bands::uniform(380, 780, 5);
-  for (const Case& c : cases) {
+  for (const ReturnCase& c : cases) {
     const auto upsampler = *Upsampler::create(c.method, c.quantity, bands);
     const auto projector = c.quantity == Quantity::kReflectance
                                ? *Projector::reflective(bands, *illuminant("D65"))

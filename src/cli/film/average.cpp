@@ -12,7 +12,7 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct AverageArguments {
   Common common;
   WriteOptions write;
   std::vector<std::string> inputs;
@@ -20,7 +20,7 @@ struct Arguments {
   std::optional<std::string> weights;
 };
 
-nlohmann::json to_json(const Arguments& a, const AverageOptions& options, const ImageReport& r) {
+nlohmann::json to_json(const AverageArguments& a, const AverageOptions& options, const ImageReport& r) {
   nlohmann::json out = {{"inputs", a.inputs},
                         {"output", a.output},
                         {"width", r.width},
@@ -34,7 +34,7 @@ nlohmann::json to_json(const Arguments& a, const AverageOptions& options, const 
   return out;
 }
 
-void print_report(const Arguments& a, const ImageReport& r) {
+void print_report(const AverageArguments& a, const ImageReport& r) {
   fmt::print("{} -> {}: {} x {}, {}, {}, {:.2f} s\n", plural(a.inputs.size(), "image"), a.output, r.width,
              r.height, size_text(r.bytes_written), speed_text(r.pixels() * a.inputs.size(), r.seconds),
              r.seconds);
@@ -44,7 +44,7 @@ void print_report(const Arguments& a, const ImageReport& r) {
   print_clamped(r.clamped_pixels, "pixel");
 }
 
-int run(const Arguments& a) {
+int run_average(const AverageArguments& a) {
   apply_common(a.common);
   AverageOptions options;
   apply_write_options(a.write, a.common, options);
@@ -70,19 +70,16 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_film_average(CLI::App& film, int& exit) {
-  const auto [command, a] =
-      add_subcommand(film, "average", "Average renders of one frame exactly, in any order", run, exit);
-  command->add_option("IN", a->inputs, "OpenEXR images with the same windows and channels")
-      ->type_name("FILE")
-      ->required();
-  const OptionAdder option{*command};
-  option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write")->required();
-  option("--weights", a->weights, "W,W...", kFilesGroup,
-         "Weight of each image, such as 64,64,128; equal by default");
-  add_nonfinite_option(*command, a->write.nonfinite, "the sample is left out");
-  add_format_options(*command, a->write, "the widest type of each channel");
-  add_common(*command, a->common, "spectile film average a.exr b.exr --weights 64,128 -o mean.exr");
+void add_film_average(const Command& film, int& exit) {
+  const auto [command, a] = add_subcommand(
+      film, "average", "Average renders of one frame exactly, in any order", run_average, exit);
+  command.positional("IN", a->inputs, "OpenEXR images with the same windows and channels").required();
+  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write").required();
+  command.option("--weights", a->weights, "W,W...", kFilesGroup,
+                 "Weight of each image, such as 64,64,128; equal by default");
+  add_nonfinite_option(command, a->write.nonfinite, "the sample is left out");
+  add_format_options(command, a->write, "the widest type of each channel");
+  add_common(command, a->common, "spectile film average a.exr b.exr --weights 64,128 -o mean.exr");
 }
 
 }  // namespace spectile::cli

@@ -17,7 +17,7 @@ constexpr Choice<FilmLayer> kLayers[] = {
     {"sensor", FilmLayer::kSensor}, {"spectral", FilmLayer::kSpectrum}, {"weight", FilmLayer::kWeight},
     {"count", FilmLayer::kCount},   {"variance", FilmLayer::kVariance}};
 
-struct Arguments {
+struct DevelopArguments {
   Common common;
   WriteOptions write;
   std::string input;
@@ -40,7 +40,7 @@ Result<std::size_t> sensor_of(const Film& film, const std::optional<std::string>
                     : fmt::format("the film keeps {}: --sensor says which", fmt::join(names, ", "))};
 }
 
-int run(const Arguments& a) {
+int run_develop(const DevelopArguments& a) {
   apply_common(a.common);
   ImageOptions options;
   apply_write_options(a.write, a.common, options);
@@ -82,17 +82,17 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_film_develop(CLI::App& film, int& exit) {
+void add_film_develop(const Command& film, int& exit) {
   const auto [command, a] =
-      add_subcommand(film, "develop", "Develop a partial film into an image", run, exit);
-  command->add_option("IN", a->input, "Partial film")->type_name("FILE")->required();
-  const OptionAdder option{*command};
-  option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write")->required();
-  option.choice("--to", a->to, kLayers, kColorGroup,
-                "srgb, xyz, luminance, sensor, spectral, weight, count or variance");
-  option("--sensor", a->sensor, "NAME", kColorGroup, "Sensor to develop, where the film holds several");
-  add_format_options(*command, a->write, "half");
-  add_common(*command, a->common, "spectile film develop all.exr --to xyz --pixel float -o image.exr");
+      add_subcommand(film, "develop", "Develop a partial film into an image", run_develop, exit);
+  command.positional("IN", a->input, "Partial film").required();
+  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write").required();
+  command.choice("--to", a->to, kLayers, kColorGroup,
+                 "srgb, xyz, luminance, sensor, spectral, weight, count or variance");
+  command.option("--sensor", a->sensor, "NAME", kColorGroup,
+                 "Sensor to develop, where the film holds several");
+  add_format_options(command, a->write, "half");
+  add_common(command, a->common, "spectile film develop all.exr --to xyz --pixel float -o image.exr");
 }
 
 }  // namespace spectile::cli

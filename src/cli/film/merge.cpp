@@ -11,7 +11,7 @@
 namespace spectile::cli {
 namespace {
 
-struct Arguments {
+struct MergeArguments {
   Common common;
   std::string compression = "zip:1";
   std::vector<std::string> inputs;
@@ -25,7 +25,7 @@ std::string identity(const std::string& path) {
   return error ? path : canonical.string();
 }
 
-int run(const Arguments& a) {
+int run_merge(const MergeArguments& a) {
   apply_common(a.common);
   ImageOptions options;
   options.threads = a.common.threads;
@@ -66,13 +66,13 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_film_merge(CLI::App& film, int& exit) {
+void add_film_merge(const Command& film, int& exit) {
   const auto [command, a] =
-      add_subcommand(film, "merge", "Merge partial films; the order does not matter", run, exit);
-  command->add_option("IN", a->inputs, "Partial films")->type_name("FILE")->required();
-  OptionAdder{*command}("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
-  add_film_compression_option(*command, a->compression);
-  add_common(*command, a->common, "spectile film merge a.exr b.exr -o all.exr");
+      add_subcommand(film, "merge", "Merge partial films; the order does not matter", run_merge, exit);
+  command.positional("IN", a->inputs, "Partial films").required();
+  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write").required();
+  add_film_compression_option(command, a->compression);
+  add_common(command, a->common, "spectile film merge a.exr b.exr -o all.exr");
 }
 
 }  // namespace spectile::cli

@@ -22,7 +22,7 @@ constexpr Choice<PixelStatistics> kStatistics[] = {{"none", PixelStatistics::kNo
                                                    {"counts", PixelStatistics::kCounts},
                                                    {"variance", PixelStatistics::kVariance}};
 
-struct Arguments {
+struct SimulateArguments {
   Common common;
   std::string output;
   std::string scene = "mixed";
@@ -50,7 +50,7 @@ struct Arguments {
 };
 
 /// Throws: Stop.
-FilmOptions film_options(const Arguments& a) {
+FilmOptions film_options(const SimulateArguments& a) {
   FilmOptions o;
   o.width = a.size[0];
   o.height = a.size[1];
@@ -75,7 +75,7 @@ FilmOptions film_options(const Arguments& a) {
 }
 
 /// Text in a checkpoint that identifies its run, without its progress.
-std::string run_text(const Arguments& a, const SceneSampling& s) {
+std::string run_text(const SimulateArguments& a, const SceneSampling& s) {
   return fmt::format("scene {} seed {} samples {} shard {}/{} wavelengths {} {}", a.scene, s.seed,
                      s.samples_per_pixel, s.shard, s.shards, s.wavelengths, name_of(kSamplings, a.sampling));
 }
@@ -95,7 +95,7 @@ struct Run {
   std::uint64_t done = 0;
 };
 
-Result<Run> start_or_continue(const Arguments& a, const FilmOptions& o, const std::string& run) {
+Result<Run> start_or_continue(const SimulateArguments& a, const FilmOptions& o, const std::string& run) {
   auto film = Film::create(o);
   if (!film) return film.error();
   std::error_code error;
@@ -115,8 +115,8 @@ Result<Run> start_or_continue(const Arguments& a, const FilmOptions& o, const st
 }
 
 /// Draws what is left, saving now and then. Throws: Stop.
-void draw(const Arguments& a, const ProceduralScene& scene, const SceneSampling& s, const std::string& text,
-          const ImageOptions& options, Run& run) {
+void draw(const SimulateArguments& a, const ProceduralScene& scene, const SceneSampling& s,
+          const std::string& text, const ImageOptions& options, Run& run) {
   using Clock = std::chrono::steady_clock;
   const std::uint64_t steps = simulation_steps(run.film.options(), s);
   const auto bar = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
@@ -142,7 +142,7 @@ void draw(const Arguments& a, const ProceduralScene& scene, const SceneSampling&
   }
 }
 
-void report(const Arguments& a, const Run& run, const SceneError& error, const FilmFileReport& saved,
+void report(const SimulateArguments& a, const Run& run, const SceneError& error, const FilmFileReport& saved,
             double seconds, std::uint64_t continued) {
   const FilmStats stats = run.film.stats();
   if (a.common.json) {
@@ -173,7 +173,7 @@ void report(const Arguments& a, const Run& run, const SceneError& error, const F
   if (stats.rejected.total() > 0) fmt::print("  {} samples rejected\n", stats.rejected.total());
 }
 
-int run(const Arguments& a) {
+int run_simulate(const SimulateArguments& a) {
   apply_common(a.common);
   const auto start = std::chrono::steady_clock::now();
   const FilmOptions o = film_options(a);
@@ -213,53 +213,54 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-void add_film_simulate(CLI::App& film, int& exit) {
-  const auto [command, a] = add_subcommand(
-      film, "simulate", "Sample a scene whose exact values are known, into a partial film", run, exit);
-  const OptionAdder option{*command};
-  option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write")->required();
-  option("--reference,--truth", a->reference, "FILE", kFilesGroup, "Write the exact XYZ too, as an image");
-  option("--checkpoint", a->checkpoint, "FILE", kFilesGroup,
-         "Save the film here regularly, and continue from it if it exists");
-  option("--every", a->every, "SECONDS", kFilesGroup, "Interval of checkpoints")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("SECONDS")
-      ->capture_default_str();
-  add_film_compression_option(*command, a->compression);
+void add_film_simulate(const Command& film, int& exit) {
+  const auto [command, a] =
+      add_subcommand(film, "simulate", "Sample a scene whose exact values are known, into a partial film",
+                     run_simulate, exit);
+  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write").required();
+  command.option("--reference,--truth", a->reference, "FILE", kFilesGroup,
+                 "Write the exact XYZ too, as an image");
+  command.option("--checkpoint", a->checkpoint, "FILE", kFilesGroup,
+                 "Save the film here regularly, and continue from it if it exists");
+  command.option("--every", a->every, "SECONDS", kFilesGroup, "Interval of checkpoints")
+      .not_negative()
+      .show_default();
+  add_film_compression_option(command, a->compression);
 
   constexpr const char* kScene = "Scene and samples";
-  option("--scene", a->scene, "NAME", kScene, "gradients, edges, spikes, decades or mixed (all four)")
-      ->check(CLI::IsMember(ProceduralScene::names()).description(""))
-      ->capture_default_str();
-  option("--size", a->size, "W H", kScene, "Width and height in pixels; 256 x 256 by default")
-      ->expected(2)
-      ->option_text("W H");
-  option("--samples", a->samples, "N", kScene, "Samples per pixel")->capture_default_str();
-  option("--seed", a->seed, "N", kScene, "Random seed")->capture_default_str();
-  option("--shard", a->shard, "I/N", kScene, "The I-th of N parts, from 0, which merge into the whole")
-      ->capture_default_str();
-  option("--wavelengths", a->wavelengths, "N", kScene, "Wavelengths per sample, 1 to 64")
-      ->check(CLI::Range(1, 64).description(""))
-      ->capture_default_str();
-  option.choice("--sampling", a->sampling, kSamplings, kScene, "Density of wavelengths: visible or uniform");
-  option.choice("--input", a->input, kInputs, kScene, "Samples at wavelengths, or on bands");
+  command.option("--scene", a->scene, "NAME", kScene, "gradients, edges, spikes, decades or mixed (all four)")
+      .one_of(ProceduralScene::names())
+      .show_default();
+  command.option("--size", a->size, "W H", kScene, "Width and height in pixels; 256 x 256 by default")
+      .pair("W H");
+  command.option("--samples", a->samples, "N", kScene, "Samples per pixel").show_default();
+  command.option("--seed", a->seed, "N", kScene, "Random seed").show_default();
+  command
+      .option("--shard", a->shard, "I/N", kScene, "The I-th of N parts, from 0, which merge into the whole")
+      .show_default();
+  command.option("--wavelengths", a->wavelengths, "N", kScene, "Wavelengths per sample, 1 to 64")
+      .range(1, 64)
+      .show_default();
+  command.choice("--sampling", a->sampling, kSamplings, kScene, "Density of wavelengths: visible or uniform");
+  command.choice("--input", a->input, kInputs, kScene, "Samples at wavelengths, or on bands");
 
   constexpr const char* kFilm = "Film";
-  option("--bands", a->bands, "BANDS", kFilm,
-         "FIRST:LAST:STEP, centres in nm, or a plan; 400:700:5 by default");
-  option.flag("--spectral", a->spectral, kFilm, "Keep spectra on the bands too");
-  add_observer_option(*command, a->observer)->group(kFilm);
-  option("--sensor", a->sensors, "NAME", kFilm,
-         fmt::format("Keep a sensor: {}", fmt::join(Sensor::names(), ", ")));
-  option("--filter", a->filter, "NAME[:RADIUS]", kFilm, "box, triangle, gaussian, mitchell or lanczos")
-      ->capture_default_str();
-  option.flag("--splat", a->splat, kFilm, "Splat samples by the filter; importance-sampled by default");
-  option("--crop", a->crop, "X0,Y0,X1,Y1", kFilm, "Only these pixels");
-  option.choice("--statistics", a->statistics, kStatistics, kFilm, "Per pixel: none, counts or variance");
-  option("--max-component", a->maximum, "X", kFilm, "Scale samples down to this largest component");
-  option("--range", a->range, "EXPONENT", kFilm, "Largest contribution, as a power of 2")
-      ->capture_default_str();
-  add_common(*command, a->common,
+  command.option("--bands", a->bands, "BANDS", kFilm,
+                 "FIRST:LAST:STEP, centres in nm, or a plan; 400:700:5 by default");
+  command.flag("--spectral", a->spectral, kFilm, "Keep spectra on the bands too");
+  add_observer_option(command, a->observer).group(kFilm);
+  command.option("--sensor", a->sensors, "NAME", kFilm,
+                 fmt::format("Keep a sensor: {}", fmt::join(Sensor::names(), ", ")));
+  command
+      .option("--filter", a->filter, "NAME[:RADIUS]", kFilm, "box, triangle, gaussian, mitchell or lanczos")
+      .show_default();
+  command.flag("--splat", a->splat, kFilm, "Splat samples by the filter; importance-sampled by default");
+  command.option("--crop", a->crop, "X0,Y0,X1,Y1", kFilm, "Only these pixels");
+  command.choice("--statistics", a->statistics, kStatistics, kFilm, "Per pixel: none, counts or variance");
+  command.option("--max-component", a->maximum, "X", kFilm, "Scale samples down to this largest component");
+  command.option("--range", a->range, "EXPONENT", kFilm, "Largest contribution, as a power of 2")
+      .show_default();
+  add_common(command, a->common,
              "spectile film simulate --scene mixed --samples 64 --shard 0/2 -o part0.exr");
 }
 

@@ -35,15 +35,14 @@ std::optional<Shard> slurm_shard() {
 
 }  // namespace
 
-void add_batch_options(CLI::App& command, BatchOptions& options) {
-  const OptionAdder option{command};
-  option("--region", options.region, "X0,Y0,X1,Y1", kFilesGroup,
-         "Convert only these pixels, both corners included");
-  option.flag("-u,--update", options.update, kManyGroup, "Pass over outputs that are up to date");
-  option("--shard", options.shard, "I/N", kManyGroup,
-         "Convert the I-th of N shards, from 0; the task's in a Slurm array; none: all");
-  option("--manifest", options.manifest, "FILE", kManyGroup,
-         "Append one line of JSON per input to this file");
+void add_batch_options(const Command& command, BatchOptions& options) {
+  command.option("--region", options.region, "X0,Y0,X1,Y1", kFilesGroup,
+                 "Convert only these pixels, both corners included");
+  command.flag("-u,--update", options.update, kManyGroup, "Pass over outputs that are up to date");
+  command.option("--shard", options.shard, "I/N", kManyGroup,
+                 "Convert the I-th of N shards, from 0; the task's in a Slurm array; none: all");
+  command.option("--manifest", options.manifest, "FILE", kManyGroup,
+                 "Append one line of JSON per input to this file");
 }
 
 std::optional<PixelWindow> region_of(const BatchOptions& options) {

@@ -16,7 +16,7 @@ struct BatchOptions {
   std::string manifest;
 };
 
-void add_batch_options(CLI::App& command, BatchOptions& options);
+void add_batch_options(const Command& command, BatchOptions& options);
 
 /// The region, if one is given. Throws: Stop.
 std::optional<PixelWindow> region_of(const BatchOptions& options);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cli/options/choice.hpp"
+#include "src/cli/options/command.hpp"
 #include "src/cli/output/messages.hpp"
 
 namespace spectile::cli {
@@ -40,7 +40,7 @@ struct Common {
 };
 
 /// Adds the options of every subcommand and the example that ends its help.
-void add_common(CLI::App& command, Common& common, const std::string& example);
+void add_common(const Command& command, Common& common, const std::string& example);
 
 /// Puts the common options in force. Throws: Stop.
 void apply_common(const Common& common);
@@ -56,21 +56,21 @@ struct WriteOptions {
 };
 
 /// Adds --pixel and --compression.
-void add_format_options(CLI::App& command, WriteOptions& options, const std::string& pixel_default);
+void add_format_options(const Command& command, WriteOptions& options, const std::string& pixel_default);
 /// Adds --nonfinite.
-void add_nonfinite_option(CLI::App& command, NonFinite& nonfinite, const std::string& zero);
+void add_nonfinite_option(const Command& command, NonFinite& nonfinite, const std::string& zero);
 /// Adds --tile, --mipmap and --lanes.
-void add_layout_options(CLI::App& command, WriteOptions& options);
+void add_layout_options(const Command& command, WriteOptions& options);
 /// Adds --compression of films.
-void add_film_compression_option(CLI::App& command, std::string& compression);
+void add_film_compression_option(const Command& command, std::string& compression);
 
 /// Fills `out`. Throws: Stop.
 void apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
 
 /// Adds an option of a standard observer.
-CLI::Option* add_observer_option(CLI::App& command, Observer& observer, const char* flag = "--observer");
+Option add_observer_option(const Command& command, Observer& observer, const char* flag = "--observer");
 /// Adds --to and --adapt.
-void add_target_options(CLI::App& command, ColorTarget& target, Adaptation& adaptation);
+void add_target_options(const Command& command, ColorTarget& target, Adaptation& adaptation);
 
 /// "SPECTRUM: name, blackbody:KELVIN, ..." for the end of a help text.
 inline const std::string kSpectrumHelp =

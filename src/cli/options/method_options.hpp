@@ -20,11 +20,11 @@ struct MethodArguments {
   std::string layer;
 };
 
-void add_method_options(CLI::App& command, MethodArguments& a);
+void add_method_options(const Command& command, MethodArguments& a);
 
 // Parts of them, for other commands that read RGB images.
-void add_method_option(CLI::App& command, std::string& method);
-void add_rgb_input_options(CLI::App& command, std::string& input_space, std::string& layer);
+void add_method_option(const Command& command, std::string& method);
+void add_rgb_input_options(const Command& command, std::string& input_space, std::string& layer);
 /// The RGB space of that name; none for an empty name. Throws: Stop.
 std::optional<RgbSpace> space_of(const std::string& name);
 

@@ -23,6 +23,11 @@ std::string Shard::text() const {
   return fmt::format("{}/{}", index, count);
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
 std::optional<std::size_t> parse_count(std::string_view text) {
   const auto value = parse_integers<std::size_t>(text, ',', 1);
   if (!value || value->front() > 999'999'999) return {};

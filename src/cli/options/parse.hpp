@@ -27,6 +27,9 @@ std::optional<Shard> parse_shard(std::string_view text);
 /// An integer of at most nine digits; nothing for other texts.
 std::optional<std::size_t> parse_count(std::string_view text);
 
+/// A text with its capital letters A to Z made small.
+std::string lower_case(std::string text);
+
 /// "X0,Y0,X1,Y1", the first and the last pixel, with X0 <= X1 and Y0 <= Y1; nothing for other texts.
 std::optional<PixelWindow> parse_region(std::string_view text);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <new>
 
 namespace spectile::io {
@@ -31,6 +32,42 @@ void filter(const std::uint8_t* in, std::uint8_t* out, std::size_t n) {
   if (n % 2 != 0) out[odd] = difference(in[n - 1], in[n - 3]);
 }
 
+// ISA-L 2.30 to 2.32 hash, in place of a block's third position, bits 16 to 47 of the stream object's own
+// address (its isal_deflate_icf_body_hash_hist on x86 does not load a register): the compressed bytes would
+// depend on where the object lies. They do not where that hash is none of the block's first three positions'.
+// So there are several places for the object, 64 KiB apart, and each chunk takes one that is right for it.
+// Hashes are CRC-32C of four bytes; four bits of them are always looked at.
+constexpr std::size_t kPlaces = 16;
+constexpr std::size_t kPlaceBytes = std::size_t{1} << 16;
+
+std::uint32_t hash_class(std::uint32_t four_bytes) {
+  for (int bit = 0; bit < 32; ++bit) {
+    four_bytes = (four_bytes >> 1) ^ ((four_bytes & 1) != 0 ? 0x82F63B78U : 0U);
+  }
+  return four_bytes & 15;
+}
+
+/// Index of the place for a chunk's stream object. A block starts at the chunk's first byte, and, where that
+/// is 0 or 255, after its repetitions too.
+std::size_t place_for(const std::byte* places, const std::uint8_t* in, std::size_t n) {
+  const std::uint8_t* repeated = in;
+  while ((in[0] == 0 || in[0] == 255) && repeated != in + n && *repeated == in[0]) ++repeated;
+  std::uint32_t taken = 0;
+  for (const std::uint8_t* start : {in, repeated}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint32_t four_bytes = 0;
+      if (start + i + sizeof(four_bytes) > in + n) continue;
+      std::memcpy(&four_bytes, start + i, sizeof(four_bytes));
+      taken |= 1U << hash_class(four_bytes);
+    }
+  }
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const auto address = reinterpret_cast<std::uintptr_t>(places + i * kPlaceBytes);
+    if ((taken >> hash_class(static_cast<std::uint32_t>(address >> 16)) & 1) == 0) return i;
+  }
+  return 0;  // not reached: sixteen neighbours have ten classes or more, and six are taken at most
+}
+
 }  // namespace
 
 void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept {
@@ -40,6 +77,8 @@ void ZipEncoder::Free::operator()(libdeflate_compressor* c) const noexcept {
 ZipEncoder::ZipEncoder(int level) {
   if (level == 1) {
     work_.resize(ISAL_DEF_LVL1_DEFAULT);
+    // The places start at multiples of 64 KiB, and are touched when they are used.
+    places_ = std::make_unique_for_overwrite<std::byte[]>((kPlaces + 1) * kPlaceBytes + sizeof(isal_zstream));
     return;
   }
   compressor_.reset(libdeflate_alloc_compressor(level));
@@ -52,7 +91,9 @@ std::size_t ZipEncoder::deflate(std::size_t n) {
   if (compressor_ != nullptr) return libdeflate_zlib_compress(compressor_.get(), in, n, out, n - 1);
   // Zeros, here and in the hash table: matches with an earlier chunk's leftovers would make the bytes depend
   // on it.
-  isal_zstream stream{};
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(places_.get()) % kPlaceBytes;
+  std::byte* const places = places_.get() + before;
+  isal_zstream& stream = *new (places + place_for(places, in, n) * kPlaceBytes) isal_zstream{};
   std::fill(work_.begin(), work_.end(), std::byte{0});
   isal_deflate_stateless_init(&stream);
   stream.level = 1;

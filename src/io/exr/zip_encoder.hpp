@@ -1,5 +1,5 @@
 // ZIP compression of one chunk: OpenEXR's byte filter; deflate by ISA-L at level 1, else by libdeflate. Both
-// are several times faster than the zlib that OpenEXR 3.1 uses, and give the same bytes on every processor.
+// are several times faster than the zlib that OpenEXR 3.1 uses.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +29,7 @@ class ZipEncoder {
 
   std::unique_ptr<libdeflate_compressor, Free> compressor_;  // null at level 1
   std::vector<std::byte> work_;                              // of ISA-L
+  std::unique_ptr<std::byte[]> places_;                      // of ISA-L's stream
   std::vector<std::byte> filtered_;
   std::vector<std::byte> compressed_;
 };

@@ -14,8 +14,6 @@ namespace {
 
 using exact::Depth;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr double kDoubleInfinity = std::numeric_limits<double>::infinity();
 
 /// The average of some samples, as it is before its last rounding.

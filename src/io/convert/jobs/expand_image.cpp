@@ -20,8 +20,8 @@ namespace {
 using io::LineStats;
 using io::Strip;
 
-/// Work space of one slot.
-struct Work {
+/// ExpandWork space of one slot.
+struct ExpandWork {
   FloatBuffer coefficients;  // four rows of whole blocks
   io::BandPacker::Work bands;
   io::BandFilter::Work filtered;
@@ -67,7 +67,7 @@ class ExpandJob : public io::FilteredJob {
   }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
-    Work& work = works_[slot];
+    ExpandWork& work = works_[slot];
     const auto width = static_cast<std::size_t>(strip.width);
     const io::LineCoefficients of = load(work, strip, line, stats);
     if (packed == nullptr) return;
@@ -93,7 +93,7 @@ class ExpandJob : public io::FilteredJob {
   }
 
   void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
-    Work& work = works_[slot];
+    ExpandWork& work = works_[slot];
     pass_through(strip, line, 0, packed);
     filter_.pack(work.filtered, work.bands, {strip, line, passing_count()}, *writer_, passing_count(),
                  packed);
@@ -103,7 +103,7 @@ class ExpandJob : public io::FilteredJob {
   std::size_t passing_count() const { return source_.planes().size() - source_.coefficients(); }
 
   /// A line's coefficients, those that cannot be used black.
-  io::LineCoefficients load(Work& work, const Strip& strip, int line, LineStats& stats) const {
+  io::LineCoefficients load(ExpandWork& work, const Strip& strip, int line, LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     float* rows[4] = {};
     for (std::size_t k = 0; k < source_.coefficients(); ++k) {
@@ -145,7 +145,7 @@ class ExpandJob : public io::FilteredJob {
   io::BandPacker packer_;
   io::BandFilter filter_;
   const io::ExrWriter* writer_ = nullptr;
-  std::vector<Work> works_;
+  std::vector<ExpandWork> works_;
   std::size_t padded_ = 0;
 };
 

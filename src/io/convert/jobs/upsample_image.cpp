@@ -26,8 +26,8 @@ using io::Strip;
 
 using Clock = std::chrono::steady_clock;
 
-/// Work space of one slot.
-struct Work {
+/// UpsampleWork space of one slot.
+struct UpsampleWork {
   io::ColorLine rgb;
   std::vector<std::uint8_t> masked;
   io::LineSolver::Work solving;
@@ -69,7 +69,7 @@ class UpsampleJob : public io::FilteredJob {
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
-      Work work;
+      UpsampleWork work;
       SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(source_.width()));
       work.masked.resize(static_cast<std::size_t>(source_.width()));
       SPECTILE_ASSIGN(work.solving, solver_.work(source_.width()));
@@ -99,7 +99,7 @@ class UpsampleJob : public io::FilteredJob {
   std::uint64_t masked_colored() const noexcept { return masked_colored_; }
 
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) override {
-    Work& work = works_[slot];
+    UpsampleWork& work = works_[slot];
     const auto width = static_cast<std::size_t>(strip.width);
     const io::ColorStage::Sanitized sanitized = sanitize(work, strip, line, stats);
     if (packed == nullptr) {
@@ -126,7 +126,7 @@ class UpsampleJob : public io::FilteredJob {
   std::size_t filtered_rows() const override { return filter_.rows(); }
 
   void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) override {
-    Work& work = works_[slot];
+    UpsampleWork& work = works_[slot];
     LineStats counted_before;
     const io::ColorStage::Sanitized sanitized = sanitize(work, strip, line, counted_before);
     const auto width = static_cast<std::size_t>(strip.width);
@@ -136,7 +136,7 @@ class UpsampleJob : public io::FilteredJob {
   }
 
   void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) override {
-    Work& work = works_[slot];
+    UpsampleWork& work = works_[slot];
     pass_through(strip, line, packed);
     const std::size_t first = source_.planes().size();
     if (options_.store == Store::kCoefficients) {
@@ -148,7 +148,8 @@ class UpsampleJob : public io::FilteredJob {
 
  private:
   /// A line's RGB as the method takes it.
-  io::ColorStage::Sanitized sanitize(Work& work, const Strip& strip, int line, LineStats& stats) const {
+  io::ColorStage::Sanitized sanitize(UpsampleWork& work, const Strip& strip, int line,
+                                     LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     work.rgb.set_width(width);
     stage_.load(strip, line, work.rgb);
@@ -160,7 +161,7 @@ class UpsampleJob : public io::FilteredJob {
     return static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
   }
 
-  void spectra(Work& work, const io::LineCoefficients& of, std::size_t width, std::byte* packed,
+  void spectra(UpsampleWork& work, const io::LineCoefficients& of, std::size_t width, std::byte* packed,
                LineStats& stats) const {
     const std::size_t first = source_.planes().size();
     auto start = Clock::now();
@@ -200,7 +201,7 @@ class UpsampleJob : public io::FilteredJob {
   const Upsampler& upsampler_;
   const UpsampleImageOptions& options_;
   const io::ExrWriter* writer_ = nullptr;
-  std::vector<Work> works_;
+  std::vector<UpsampleWork> works_;
   std::uint64_t masked_colored_ = 0;
   int counted_lines_ = 0;
   io::ColorStage stage_;

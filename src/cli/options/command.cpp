@@ -1,0 +1,176 @@
+// Commands and their options, by CLI11.
+#include "src/cli/options/command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+
+#include "src/cli/output/messages.hpp"
+
+namespace spectile::cli {
+
+Option Option::required() const {
+  option_->required();
+  return *this;
+}
+
+Option Option::show_default() const {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option Option::type(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
+}
+
+Option Option::group(const std::string& name) const {
+  option_->group(name);
+  return *this;
+}
+
+Option Option::range(double low, double high) const {
+  option_->check([low, high](const std::string& text) {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+    return fmt::format("Value {} not in range {} to {}", text, low, high);
+  });
+  return *this;
+}
+
+Option Option::not_negative() const {
+  const std::string type = option_->get_type_name();
+  option_->check(CLI::NonNegativeNumber)->type_name(type);
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& names, Case letters) const {
+  option_->check(letters == Case::kIgnored ? CLI::IsMember(names, CLI::ignore_case).description("")
+                                           : CLI::IsMember(names).description(""));
+  return *this;
+}
+
+Option Option::pair(const std::string& text) const {
+  option_->expected(2)->option_text(text);
+  return *this;
+}
+
+Option Option::separated_by(char separator) const {
+  option_->delimiter(separator);
+  return *this;
+}
+
+Option Option::one_value() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::excludes(const char* flag) const {
+  option_->excludes(flag);
+  return *this;
+}
+
+Option Option::check(std::function<std::string(const std::string&)> error) const {
+  option_->check(std::move(error));
+  return *this;
+}
+
+template <class T>
+Option Command::positional(const char* name, T& target, const std::string& text, const char* type) const {
+  return Option(app_->add_option(name, target, text)->type_name(type));
+}
+
+template <class T>
+Option Command::option(const char* flags, T& target, const char* type, const char* group,
+                       const std::string& text) const {
+  return Option(app_->add_option(flags, target, text)->type_name(type)->group(group));
+}
+
+// The types of options' targets: one more is one more line.
+#define SPECTILE_OPTION_TARGET(T) \
+  template Option Command::option<T>(const char*, T&, const char*, const char*, const std::string&) const
+SPECTILE_OPTION_TARGET(std::string);
+SPECTILE_OPTION_TARGET(std::optional<std::string>);
+SPECTILE_OPTION_TARGET(std::vector<std::string>);
+SPECTILE_OPTION_TARGET(int);
+SPECTILE_OPTION_TARGET(std::int64_t);
+SPECTILE_OPTION_TARGET(std::uint64_t);
+SPECTILE_OPTION_TARGET(double);
+SPECTILE_OPTION_TARGET(std::optional<float>);
+SPECTILE_OPTION_TARGET(std::optional<double>);
+SPECTILE_OPTION_TARGET(std::optional<std::size_t>);
+SPECTILE_OPTION_TARGET(std::vector<int>);
+SPECTILE_OPTION_TARGET(std::vector<double>);
+#undef SPECTILE_OPTION_TARGET
+template Option Command::positional<std::string>(const char*, std::string&, const std::string&,
+                                                 const char*) const;
+template Option Command::positional<std::optional<std::string>>(const char*, std::optional<std::string>&,
+                                                                const std::string&, const char*) const;
+template Option Command::positional<std::vector<std::string>>(const char*, std::vector<std::string>&,
+                                                              const std::string&, const char*) const;
+
+Option Command::flag(const char* flags, bool& target, const char* group, const std::string& text) const {
+  return Option(app_->add_flag(flags, target, text)->group(group));
+}
+
+Option Command::named(const char* flags, std::function<void(const std::string&)> set,
+                      std::function<std::string(const std::string&)> error, const std::string& shown,
+                      const char* group, const std::string& text) const {
+  CLI::Option* const option = app_->add_option_function<std::string>(flags, std::move(set), text);
+  option->type_name("NAME")->check(std::move(error))->group(group);
+  if (!shown.empty()) option->default_str(shown);
+  return Option(option);
+}
+
+Command Command::subcommand(const char* name, const char* about) const {
+  return Command(app_->add_subcommand(name, about));
+}
+
+void Command::require_subcommand() const {
+  app_->require_subcommand(1);
+}
+
+void Command::on_run(std::function<void()> run) const {
+  app_->callback(std::move(run));
+}
+
+void Command::footer(const std::string& text) const {
+  app_->footer(text);
+}
+
+void Command::help_group(const char* group) const {
+  app_->set_help_flag("-h,--help", "Print this help message and exit")->group(group);
+}
+
+void throw_usage_error(const std::string& message) {
+  throw CLI::ParseError(message, CLI::ExitCodes::RequiredError);
+}
+
+CommandLine::CommandLine(const char* name, const char* about, const char* version)
+    : app_(std::make_unique<CLI::App>(about, name)) {
+  app_->get_formatter()->column_width(34);
+  app_->set_version_flag("--version", version);
+}
+
+CommandLine::~CommandLine() = default;
+
+std::optional<int> CommandLine::run(int argc, char** argv) const {
+  try {
+    app_->parse(argc, argv);
+    return {};
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app_->exit(error);  // help or version
+    std::string text = error.what();
+    for (char& c : text) c = c == '\n' ? ' ' : c;
+    return complain_usage(text + " (see spectile --help)");
+  }
+}
+
+}  // namespace spectile::cli
