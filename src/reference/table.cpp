@@ -5,7 +5,7 @@
 
 namespace spectile::reference {
 
-const kernels::KernelTable table = {
+const kernels::KernelTable kernel_table = {
     {
         .add = add,
         .subtract = subtract,

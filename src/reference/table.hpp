@@ -5,6 +5,6 @@
 
 namespace spectile::reference {
 
-extern const kernels::KernelTable table;
+extern const kernels::KernelTable kernel_table;
 
 }  // namespace spectile::reference

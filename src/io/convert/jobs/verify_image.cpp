@@ -127,7 +127,7 @@ Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampl
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     run(kernels, in, ours);
-    run(reference::table, in, expected);
+    run(reference::kernel_table, in, expected);
     compare(ours, expected, bands * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
@@ -157,7 +157,7 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
       table.project(dst, block, ProjectorAccess::weights(projector), bands, 1);
     };
     run(kernels, ours);
-    run(reference::table, expected);
+    run(reference::kernel_table, expected);
     compare(ours, expected, 3 * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       std::array<double, 3> size{};
