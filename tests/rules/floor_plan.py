@@ -62,7 +62,7 @@ LIBRARIES = [
     ("libdeflate", r"libdeflate", "src/io/exr/zip_encoder.cpp"),
     ("ISA-L", r"isa-l", "src/io/exr/zip_encoder.cpp"),
     ("Eigen", r"Eigen/", "src/planner/* src/upsampling/quadratic_program.*"),
-    ("CLI11", r"CLI/", "src/cli/*"),
+    ("CLI11", r"CLI/", "src/cli/options/command.cpp"),
     ("nlohmann-json", r"nlohmann/", "src/cli/* src/io/text/plan_json.cpp bench/report/json.cpp"),
     ("fmt", r"fmt/", "src/* bench/*"),
     ("POSIX", r"(sys|linux)/", "src/* bench/*"),
