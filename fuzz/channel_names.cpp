@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fuzz/support.hpp"
-#include "src/io/convert/sources/spectral_layout.hpp"
+#include "src/io/channels/spectral_layout.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace spectile;

@@ -21,6 +21,7 @@ struct InfoArguments {
   Common common;
   std::string input;
   std::string pixel;
+  ChannelArguments channels;
 };
 
 nlohmann::json to_json(const std::string& path, const ImageInfo& info) {
@@ -44,6 +45,25 @@ nlohmann::json to_json(const std::string& path, const ImageInfo& info) {
                                {"negative", c.negative}});
   }
   for (const auto& [name, text] : info.attributes) out["attributes"][name] = text;
+  out["contents"] = info.contents;
+  out["notes"] = info.notes;
+  if (!info.dialect.empty()) out["dialect"] = info.dialect;
+  if (!info.color_space.empty()) out["color_space"] = info.color_space;
+  if (!info.alpha.empty()) out["alpha"] = info.alpha;
+  for (const PartInfo& part : info.part_list) {
+    nlohmann::json p = {{"name", part.name},
+                        {"view", part.view},
+                        {"deep", part.deep},
+                        {"data_window", corners(part.data_window)},
+                        {"display_window", corners(part.display_window)},
+                        {"tiled", part.tiled},
+                        {"levels", part.levels},
+                        {"compression", part.compression},
+                        {"channels", part.channels},
+                        {"attributes", nlohmann::json::object()}};
+    for (const auto& [name, text] : part.attributes) p["attributes"][name] = text;
+    out["part_list"].push_back(std::move(p));
+  }
   if (info.quantity) out["quantity"] = to_string(*info.quantity);
   if (info.bands) {
     out["bands"] = info.bands->count();
@@ -60,9 +80,34 @@ void print_channel(const ChannelInfo& c) {
   fmt::print("\n");
 }
 
+void print_part(std::size_t number, const PartInfo& part) {
+  fmt::print("part {}{}{}: {} x {}, {}{}, {}{}\n", number, part.name.empty() ? "" : " \"" + part.name + "\"",
+             part.view.empty() ? "" : ", view \"" + part.view + "\"", part.data_window.width(),
+             part.data_window.height(),
+             part.deep    ? "deep, "
+             : part.tiled ? "tiled, "
+                          : "",
+             part.compression, plural(part.channels, "channel"),
+             part.levels > 1 ? fmt::format(", {} mip levels", part.levels) : "");
+}
+
+void print_contents(const ImageInfo& info) {
+  if (info.parts > 1) {
+    for (std::size_t i = 0; i < info.part_list.size(); ++i) print_part(i, info.part_list[i]);
+  } else if (info.part_list.front().levels > 1) {
+    fmt::print("{} mip levels\n", info.part_list.front().levels);
+  }
+  for (const std::string& text : info.contents) fmt::print("holds {}\n", text);
+  if (!info.dialect.empty()) fmt::print("dialect: {}\n", info.dialect);
+  if (!info.color_space.empty()) fmt::print("colour space: {}\n", info.color_space);
+  if (!info.alpha.empty()) fmt::print("alpha: channel {}\n", info.alpha);
+  for (const std::string& note : info.notes) fmt::print("note: {}\n", note);
+}
+
 void print_info(const std::string& path, const ImageInfo& info) {
   fmt::print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "",
-             info.compression, info.parts > 1 ? fmt::format(", first of {} parts", info.parts) : "");
+             info.compression, info.parts > 1 ? fmt::format(", {} parts", info.parts) : "");
+  print_contents(info);
   const auto d = corners(info.data_window);
   const auto w = corners(info.display_window);
   if (d != w) {
@@ -116,7 +161,7 @@ int run_info(const InfoArguments& a) {
     pixel = parse_pixel(a.pixel);
     if (!pixel) return complain_usage(fmt::format("--pixel {} is not X,Y", a.pixel));
   }
-  const ImageInfo info = take(inspect_image(a.input, pixel, a.common.threads));
+  const ImageInfo info = take(inspect_image(a.input, pixel, a.common.threads, channel_choice(a.channels)));
   if (a.common.json) {
     print_json(to_json(a.input, info));
   } else if (!a.common.quiet) {
@@ -134,6 +179,8 @@ void add_info(const Command& app, int& exit) {
   command.positional("FILE", a->input, "Any flat OpenEXR image", "").required();
   command.option("--pixel", a->pixel, "X,Y", kFilesGroup,
                  "Show this pixel, counted from the data window's upper left corner");
+  add_channel_options(command, a->channels);
+  add_channel_map_option(command, a->channels);
   add_common(command, a->common, "spectile info wood-spectral.exr --pixel 100,200");
 }
 

@@ -25,7 +25,7 @@ struct PlanArguments {
   std::size_t colors = 128;
   std::string method = std::string(to_string(kDefaultMethod));
   std::string input_space;
-  std::string layer;
+  ChannelArguments channels;
   NonFinite nonfinite = NonFinite::kStop;
   int bounces = 1;
   BandSampling sample = BandSampling::kPoints;
@@ -86,7 +86,7 @@ std::vector<Spectrum> default_reflectances() {
 void add_textures(const PlanArguments& a, std::vector<Spectrum>& out) {
   MethodOptions options;
   options.threads = a.common.threads;
-  options.layer = a.layer;
+  options.channels = channel_choice(a.channels);
   options.nonfinite = a.nonfinite;
   options.method = take(parse_method(a.method));
   options.input_space = space_of(a.input_space);
@@ -206,7 +206,7 @@ void add_plan(const Command& app, int& exit) {
       .required();
   add_observer_option(command, a->observer);
   add_method_option(command, a->method);
-  add_rgb_input_options(command, a->input_space, a->layer);
+  add_rgb_input_options(command, a->input_space, a->channels);
   command.option("--bounces", a->bounces, "N", kColorGroup, "Reflections that must keep their colour, 1 to 4")
       .range(1, 4)
       .show_default();

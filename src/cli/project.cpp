@@ -15,6 +15,7 @@ struct ProjectArguments {
   std::string illuminant;
   Observer observer = Observer::kCie1931;
   std::optional<Quantity> quantity;
+  ChannelArguments channels;
   Adaptation adapt = Adaptation::kNone;
 };
 
@@ -27,7 +28,9 @@ int run_project(const ProjectArguments& a) {
   if (!a.illuminant.empty()) options.light = take(find_light(a.illuminant)).spectrum;
   options.adaptation = a.adapt;
   options.quantity = a.quantity;
-  return run_jobs(a.image, settings_text(options), files_among({a.illuminant}), options.progress,
+  options.channels = channel_choice(a.channels);
+  return run_jobs(a.image, settings_text(options), files_among({a.illuminant, a.channels.map}),
+                  options.progress,
                   [&](const Job& job) { return project_image(job.input, job.output, options); });
 }
 
@@ -36,13 +39,15 @@ int run_project(const ProjectArguments& a) {
 void add_project(const Command& app, int& exit) {
   const auto [command, a] =
       add_subcommand(app, "project", "Turn spectral images into colour", run_project, exit);
-  a->image.add_files(command, "Spectral OpenEXR images (channels T.*nm or S0.*nm)");
+  a->image.add_files(command, "Spectral OpenEXR images");
   command.option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
                  "Illuminant on reflectances; D65 by default");
   add_observer_option(command, a->observer);
   add_target_options(command, a->to, a->adapt);
   command.choice("--quantity", a->quantity, kQuantities, kColorGroup,
                  "reflectance or illuminant, where a file holds both");
+  add_channel_options(command, a->channels);
+  add_channel_map_option(command, a->channels);
   a->image.add_options(
       command, "float",
       "spectile project wood-s.exr -o wood-a.exr --illuminant A --observer 1964\n" + kSpectrumHelp);

@@ -26,6 +26,12 @@ MeasuredSpectrum matching_function(const data::MatchingFunctions& observer, std:
   return *MeasuredSpectrum::from_samples(wavelengths, samples);
 }
 
+std::array<MeasuredSpectrum, 3> matching_functions(Observer observer) {
+  const data::MatchingFunctions& table = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
+  return {matching_function(table, table.x_bar), matching_function(table, table.y_bar),
+          matching_function(table, table.z_bar)};
+}
+
 /// XYZ to sRGB with this white at RGB 1, 1, 1, or with the standard's where this one is far from it.
 Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
   constexpr double kFar = 0.1;
@@ -61,10 +67,7 @@ void Projector::add_band(const std::array<double, 3>& weights) {
 
 Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpectrum* light,
                                          Observer observer) {
-  const data::MatchingFunctions& table = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
-  const MeasuredSpectrum functions[3] = {matching_function(table, table.x_bar),
-                                         matching_function(table, table.y_bar),
-                                         matching_function(table, table.z_bar)};
+  const std::array<MeasuredSpectrum, 3> functions = matching_functions(observer);
   const MeasuredSpectrum d65 = *illuminant("D65");
   std::array<double, 3> d65_white{};
   std::vector<std::array<double, 3>> weights;
@@ -133,6 +136,33 @@ Result<Projector> Projector::emissive(const Bands& bands, Observer observer) {
 Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light,
                                         Observer observer) {
   return of_observer(bands, &light, observer);
+}
+
+Result<Projector> Projector::reradiating(const Bands& bands, const MeasuredSpectrum& light,
+                                         std::span<const BandPair> pairs, Observer observer) {
+  if (bands.weights() != nullptr && !pairs.empty()) {
+    return make_error(ErrorCode::kBadArgument, "planned bands have no weights for re-radiation");
+  }
+  SPECTILE_ASSIGN(auto out, of_observer(bands, &light, observer));
+  const std::array<MeasuredSpectrum, 3> functions = matching_functions(observer);
+  double luminance = 0;
+  for (const Band& band : bands.list()) {
+    luminance += product_integral(functions[1], light, band.lower_nm, band.upper_nm);
+  }
+  for (const BandPair& pair : pairs) {
+    if (pair.from >= bands.count() || pair.to >= bands.count()) {
+      return make_error(ErrorCode::kBadArgument, "re-radiation from band {} to band {} of {}", pair.from,
+                        pair.to, bands.count());
+    }
+    const Band& from = bands[pair.from];
+    const Band& to = bands[pair.to];
+    const double absorbed = light.integral(from.lower_nm, from.upper_nm) / from.width_nm();
+    std::array<double, 3> w{};
+    for (std::size_t k = 0; k < 3; ++k)
+      w[k] = absorbed * functions[k].integral(to.lower_nm, to.upper_nm) / luminance;
+    out.add_band(w);
+  }
+  return out;
 }
 
 Result<Projector> Projector::emissive(const Bands& bands, const Sensor& sensor) {

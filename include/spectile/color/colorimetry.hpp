@@ -17,6 +17,12 @@ namespace spectile {
 class Sensor;
 class Spectrum;
 
+/// Two bands of a list: light absorbed in one, and emitted in the other.
+struct BandPair {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+
 /// Three weights a band that turn sampled spectra into XYZ, or into a sensor's RGB.
 class Projector {
  public:
@@ -32,6 +38,17 @@ class Projector {
   /// Source: CIE 015:2018.
   static Result<Projector> reflective(const Bands& bands, const MeasuredSpectrum& light,
                                       Observer observer = Observer::kCie1931);
+
+  /// For reflectances that also re-radiate, as fluorescent ones do: the weights of reflective(), then one for
+  /// each pair of bands, for the share of the light absorbed in one that is emitted in the other: average of
+  /// the light over the first * integral of the matching function over the second. A share is what the
+  /// spectral layout's channels of two wavelengths hold: radiance emitted in the second band over irradiance
+  /// times 1 / pi in the first, both averages. Errors: those of reflective(); kBadArgument for planned bands
+  /// and for pairs of bands that there are not. Source: Fichet, Pacanowski, Wilkie, An OpenEXR Layout for
+  /// Spectral Images, JCGT 10(3), 2021.
+  static Result<Projector> reradiating(const Bands& bands, const MeasuredSpectrum& light,
+                                       std::span<const BandPair> pairs,
+                                       Observer observer = Observer::kCie1931);
 
   /// For a sensor: weight = its factor * integral of its curve, for reflectances of curve times light, over
   /// the band. Units: as Sensor::response(). Errors: kBadArgument for planned bands, which an observer's

@@ -66,6 +66,22 @@ struct Progress {
 /// Called now and then, from one thread at a time; false stops the conversion with kCancelled.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
+/// A channel whose name says no wavelength, and the band that it holds.
+struct MappedChannel {
+  std::string name;
+  Band band;
+};
+
+/// Which of a file's channels to read. Where nothing is said: the plain ones, or the only ones that there
+/// are; of a stereo file the default view; of several parts the first that has any.
+struct ChannelChoice {
+  std::string layer;  ///< of channels named LAYER.NAME; the name of a view or a part is taken too
+  std::string view;   ///< of a stereo file, such as "right"
+  std::string part;   ///< of a file of several parts: its name, or its number, from 0
+  /// Where it is not empty: the spectral channels, whatever their names. See load_channel_map().
+  std::vector<MappedChannel> map;
+};
+
 /// Options of every conversion.
 struct ImageOptions {
   SampleType pixel = SampleType::kHalf;
@@ -88,6 +104,7 @@ struct ImageOptions {
   /// of 64 x 64 where `tile` says nothing. A level's pixel is the average of the area that it covers: of
   /// spectra, or of colours in linear light. kBadArgument for coefficients that are not linear in spectra.
   bool mipmap = false;
+  ChannelChoice channels;
   ProgressFunction progress;
 };
 
@@ -101,7 +118,6 @@ struct MethodOptions : ImageOptions {
   std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
-  std::string layer;  ///< layer, view or part to take R, G, B from; empty for the plain ones
 };
 
 /// Contents of the output of upsample_image().
@@ -246,6 +262,20 @@ struct ChannelInfo {
   std::uint64_t negative = 0;
 };
 
+/// One part of a file.
+struct PartInfo {
+  std::string name;  ///< empty: none
+  std::string view;  ///< empty: none
+  bool deep = false;
+  PixelWindow data_window;
+  PixelWindow display_window;
+  bool tiled = false;
+  int levels = 1;  ///< mip levels, the image among them
+  std::string compression;
+  std::size_t channels = 0;
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< of every type, as text
+};
+
 /// Metadata and statistics of a file.
 struct ImageInfo {
   int width = 0;
@@ -253,20 +283,29 @@ struct ImageInfo {
   PixelWindow data_window;
   PixelWindow display_window;
   int parts = 1;
+  std::vector<PartInfo> part_list;
+  std::vector<std::string>
+      contents;  ///< "31 bands of emission, layer \"diffuse\"", "colour R, G, B": all there is
+  std::vector<std::string> notes;  ///< guesses, and what is unusual
+  std::string dialect;             ///< of the spectral channels' names
+  std::string color_space;         ///< of the colour channels; empty: none
+  std::string alpha;               ///< channel; empty: none
   bool tiled = false;
   std::string compression;
-  std::vector<ChannelInfo> channels;  ///< of the first flat part; spectral ones last, by wavelength
+  std::vector<ChannelInfo> channels;  ///< of the part that was chosen; spectral ones last, by wavelength
   std::optional<Quantity> quantity;   ///< set for a spectral image
   std::optional<Bands> bands;         ///< set for a spectral image
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< texts, and others by type
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< of that part, of every type, as text
   std::uint64_t nonfinite = 0;                                  ///< samples, over all channels
   std::uint64_t negative = 0;
   std::vector<float> pixel;  ///< the pixel asked for: a spectrum, or one value a channel
 };
 
-/// Reads a whole file and says what it holds. `pixel` counts from the data window's upper left corner.
+/// Says what a file holds, and reads the part that the choice asks for, the first flat one without. `pixel`
+/// counts from the data window's upper left corner.
 Result<ImageInfo> inspect_image(const std::string& path,
-                                std::optional<std::array<int, 2>> pixel = std::nullopt, int threads = 0);
+                                std::optional<std::array<int, 2>> pixel = std::nullopt, int threads = 0,
+                                const ChannelChoice& choice = {});
 
 /// How kernels, reference and oracle compare on a file.
 struct VerifyReport {

@@ -21,6 +21,25 @@ void apply_common(const Common& common) {
   take(active_isa());
 }
 
+void add_channel_options(const Command& command, ChannelArguments& channels) {
+  command.option("--layer", channels.layer, "NAME", kFilesGroup,
+                 "Layer to read; also the name of a view or a part");
+  command.option("--view", channels.view, "NAME", kFilesGroup, "View of a stereo image to read");
+  command.option("--part", channels.part, "NAME", kFilesGroup,
+                 "Part to read: its name, or its number from 0");
+}
+
+void add_channel_map_option(const Command& command, ChannelArguments& channels) {
+  command.option("--channels", channels.map, "FILE", kFilesGroup,
+                 "Wavelengths of channels whose names say none: CSV, channel,nm or channel,lower,upper");
+}
+
+ChannelChoice channel_choice(const ChannelArguments& channels) {
+  ChannelChoice out{channels.layer, channels.view, channels.part, {}};
+  if (!channels.map.empty()) out.map = take(load_channel_map(channels.map));
+  return out;
+}
+
 void add_format_options(const Command& command, WriteOptions& options, const std::string& pixel_default) {
   command
       .choice("--pixel", options.pixel, kSampleTypes, kFormatGroup,

@@ -45,6 +45,21 @@ void add_common(const Command& command, Common& common, const std::string& examp
 /// Puts the common options in force. Throws: Stop.
 void apply_common(const Common& common);
 
+/// Which of a file's channels are read, as given on the command line.
+struct ChannelArguments {
+  std::string layer;
+  std::string view;
+  std::string part;
+  std::string map;
+};
+
+/// Adds --layer, --view and --part.
+void add_channel_options(const Command& command, ChannelArguments& channels);
+/// Adds --channels.
+void add_channel_map_option(const Command& command, ChannelArguments& channels);
+/// Throws: Stop.
+ChannelChoice channel_choice(const ChannelArguments& channels);
+
 /// Options of what is written.
 struct WriteOptions {
   std::optional<SampleType> pixel;

@@ -31,12 +31,12 @@ void add_method_option(const Command& command, std::string& method) {
       .show_default();
 }
 
-void add_rgb_input_options(const Command& command, std::string& input_space, std::string& layer) {
+void add_rgb_input_options(const Command& command, std::string& input_space, ChannelArguments& channels) {
   command
       .option("--input-space", input_space, "NAME", kColorGroup,
               fmt::format("{}", fmt::join(rgb_space_names(), ", ")))
       .one_of(rgb_space_names(), Option::Case::kIgnored);
-  command.option("--layer", layer, "NAME", kFilesGroup, "Layer, view or part to take R, G, B from");
+  add_channel_options(command, channels);
 }
 
 std::optional<RgbSpace> space_of(const std::string& name) {
@@ -50,7 +50,7 @@ void add_method_options(const Command& command, MethodArguments& a) {
   command.option("--white", a.white, "SPECTRUM", kColorGroup,
                  "Reference white: RGB 1,1,1 is the perfect diffuser under it; D65 by default");
   add_observer_option(command, a.white_observer, "--white-observer");
-  add_rgb_input_options(command, a.input_space, a.layer);
+  add_rgb_input_options(command, a.input_space, a.channels);
   command.choice("--negative", a.negative, kNegatives, kColorGroup,
                  "Components below 0: gamut (as colours out of gamut), clip, keep or error");
   command.choice("--out-of-gamut", a.out_of_gamut, kGamutPolicies, kColorGroup,
@@ -74,7 +74,7 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
   out.input_space = space_of(a.input_space);
   out.negative = a.negative;
   out.out_of_gamut = a.out_of_gamut;
-  out.layer = a.layer;
+  out.channels = channel_choice(a.channels);
 }
 
 }  // namespace spectile::cli

@@ -17,14 +17,14 @@ struct MethodArguments {
   std::string input_space;
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;
-  std::string layer;
+  ChannelArguments channels;
 };
 
 void add_method_options(const Command& command, MethodArguments& a);
 
 // Parts of them, for other commands that read RGB images.
 void add_method_option(const Command& command, std::string& method);
-void add_rgb_input_options(const Command& command, std::string& input_space, std::string& layer);
+void add_rgb_input_options(const Command& command, std::string& input_space, ChannelArguments& channels);
 /// The RGB space of that name; none for an empty name. Throws: Stop.
 std::optional<RgbSpace> space_of(const std::string& name);
 

@@ -12,9 +12,9 @@
 #include "src/base/errors.hpp"
 #include "src/io/exr/attributes.hpp"
 #include "src/io/exr/compression.hpp"
-#include "src/io/exr/dwa_encoder.hpp"
+#include "src/io/exr/encoders/dwa_encoder.hpp"
 #include "src/io/exr/exr_input.hpp"
-#include "src/io/exr/zip_encoder.hpp"
+#include "src/io/exr/encoders/zip_encoder.hpp"
 
 namespace spectile::io {
 

@@ -3,9 +3,13 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfStringVectorAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
@@ -91,6 +95,20 @@ std::optional<std::string> PartHeader::text(const std::string& name) const {
   const auto* const found = imf_->findTypedAttribute<Imf::StringAttribute>(name);
   if (found == nullptr) return {};
   return found->value();
+}
+
+std::optional<double> PartHeader::number(const std::string& name) const {
+  if (imf_ == nullptr) return {};
+  if (const auto* d = imf_->findTypedAttribute<Imf::DoubleAttribute>(name)) return d->value();
+  if (const auto* f = imf_->findTypedAttribute<Imf::FloatAttribute>(name)) return double{f->value()};
+  if (const auto* i = imf_->findTypedAttribute<Imf::IntAttribute>(name)) return i->value();
+  return {};
+}
+
+std::vector<std::string> PartHeader::views() const {
+  if (imf_ == nullptr) return {};
+  const auto* const found = imf_->findTypedAttribute<Imf::StringVectorAttribute>("multiView");
+  return found == nullptr ? std::vector<std::string>() : found->value();
 }
 
 bool PartHeader::has_attribute(const std::string& name) const {

@@ -106,6 +106,10 @@ class PartHeader {
 
   /// An attribute of type string. The name, type and view of a part are among them.
   std::optional<std::string> text(const std::string& name) const;
+  /// An attribute of type int, float or double.
+  std::optional<double> number(const std::string& name) const;
+  /// The attribute multiView: the views of a part that holds several, the default one first.
+  std::vector<std::string> views() const;
   /// All attributes of type string but the part's type.
   std::vector<std::pair<std::string, std::string>> texts() const;
   /// True if there is an attribute of this name, whatever its type.

@@ -6,7 +6,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/film/responses.hpp"
-#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/io/channels/plan_attribute.hpp"
 #include "src/io/film/film_channels.hpp"
 
 namespace spectile::io {

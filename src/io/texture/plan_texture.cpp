@@ -128,8 +128,8 @@ std::vector<Cell> merged(std::vector<Cell> cells, std::size_t most) {
 
 Result<Census> census_of(const std::string& path, const Upsampler& upsampler, const MethodOptions& options) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  SPECTILE_ASSIGN(auto opened, io::RgbSource::open(path, options.layer, tiles::thread_count(options.threads),
-                                                   options.region));
+  SPECTILE_ASSIGN(auto opened, io::RgbSource::open(path, options.channels,
+                                                   tiles::thread_count(options.threads), options.region));
   io::RgbSource& source = *opened;
   const io::ColorStage stage(source, upsampler, options, *kernels);
   SPECTILE_ASSIGN(auto line, io::ColorLine::create(source.width()));

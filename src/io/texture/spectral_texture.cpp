@@ -11,7 +11,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/io/channels/plan_attribute.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
 #include "src/io/texture/evaluators.hpp"
 #include "src/lanes/shape.hpp"
@@ -88,7 +88,7 @@ class SpectralTexture::Image {
   Result<void> evaluate(const PixelWindow& region, SampledSpectraSpan spectra);
 
  private:
-  Result<void> choose_channels(const io::SpectralChannels& channels);
+  Result<void> choose_channels(const io::SpectralSet& set);
   Result<std::unique_ptr<io::Evaluator>> evaluator_for(const Bands& bands) const;
   Result<void> read(const std::vector<io::PlaneSpec>& planes, Strip& strip);
   io::ExrInput& file() const { return source_ ? source_->input() : *input_; }
@@ -116,10 +116,13 @@ Result<std::shared_ptr<SpectralTexture::Image>> SpectralTexture::Image::open(con
       SPECTILE_ASSIGN(image->source_, io::CoefficientSource::open(std::move(input)));
       return image;
     }
-    const auto channels = io::spectral_channels(input->header(part), std::nullopt);
-    if (!channels) continue;
+  }
+  std::vector<std::string> notes;
+  SPECTILE_ASSIGN(const auto set, io::choose_spectra(*input, {}, std::nullopt, notes));
+  if (set) {
+    image->part_ = set->part;
     image->input_ = std::move(input);
-    SPECTILE_TRY(image->choose_channels(*channels));
+    SPECTILE_TRY(image->choose_channels(*set));
     return image;
   }
   return make_error(ErrorCode::kBadFile,
@@ -127,12 +130,14 @@ Result<std::shared_ptr<SpectralTexture::Image>> SpectralTexture::Image::open(con
                     path);
 }
 
-Result<void> SpectralTexture::Image::choose_channels(const io::SpectralChannels& channels) {
-  quantity_ = channels.quantity;
-  const auto bands = Bands::from_centres(channels.centres_nm);
-  if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path(), bands.error().message);
-  SPECTILE_ASSIGN(bands_, io::with_plan(input_->header(part_), *bands, path()));
-  SPECTILE_ASSIGN(channels_, io::band_planes(input_->header(part_), channels, path()));
+Result<void> SpectralTexture::Image::choose_channels(const io::SpectralSet& set) {
+  if (!set.reradiating.empty()) {
+    return make_error(ErrorCode::kBadFile,
+                      "{}: re-radiates (channels of two wavelengths); a texture only reflects", path());
+  }
+  quantity_ = set.quantity;
+  SPECTILE_ASSIGN(bands_, set.bands(input_->header(part_), path()));
+  SPECTILE_ASSIGN(channels_, io::band_planes(input_->header(part_), set, path()));
   return {};
 }
 

@@ -155,8 +155,9 @@ std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& bas
   return out;
 }
 
-std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observer observer,
-                                                      const MeasuredSpectrum* light) {
+std::vector<std::array<double, 3>> projection_weights(
+    const Bands& bands, Observer observer, const MeasuredSpectrum* light,
+    std::span<const std::pair<std::size_t, std::size_t>> pairs) {
   const data::MatchingFunctions& f = observer == Observer::kCie1964 ? data::kCie1964 : data::kCie1931;
   const std::span<const double> bars[3] = {f.x_bar, f.y_bar, f.z_bar};
   std::vector<std::array<double, 3>> weights(bands.count());
@@ -173,6 +174,17 @@ std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observ
       });
     }
     luminance += weights[b][1];
+  }
+  for (const auto& [from, to] : pairs) {
+    const double absorbed =
+        fine_integral(bands[from].lower_nm, bands[from].upper_nm, [&](double l) { return light->at(l); }) /
+        bands[from].width_nm();
+    auto& w = weights.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      w[k] = absorbed * fine_integral(bands[to].lower_nm, bands[to].upper_nm, [&](double l) {
+               return at_even(f.first_nm, f.step_nm, bars[k], l, true);
+             });
+    }
   }
   for (auto& w : weights) {
     for (double& v : w) v /= luminance;

@@ -23,9 +23,11 @@ std::vector<std::array<double, 7>> smits_basis(Method method, Quantity quantity,
 std::vector<double> smits_spectrum(const std::vector<std::array<double, 7>>& basis,
                                    const std::array<double, 3>& rgb, double lowest);
 
-/// XYZ weights of each band by summing at 0.01 nm: [bands][3]. `light` null for emitted light.
-std::vector<std::array<double, 3>> projection_weights(const Bands& bands, Observer observer,
-                                                      const MeasuredSpectrum* light);
+/// XYZ weights of each band by summing at 0.01 nm: [bands][3]. `light` null for emitted light. Then those of
+/// pairs of bands, of which the first absorbs what the second emits.
+std::vector<std::array<double, 3>> projection_weights(
+    const Bands& bands, Observer observer, const MeasuredSpectrum* light,
+    std::span<const std::pair<std::size_t, std::size_t>> pairs = {});
 
 /// XYZ of a spectrum.
 std::array<double, 3> project(const std::vector<std::array<double, 3>>& weights,

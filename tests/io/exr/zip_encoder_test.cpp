@@ -1,5 +1,5 @@
 // ZipEncoder: the same bytes wherever its memory lies, and that zlib's format is what they are in.
-#include "src/io/exr/zip_encoder.hpp"
+#include "src/io/exr/encoders/zip_encoder.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>

@@ -55,6 +55,16 @@ std::string to_text(const Bands& bands) {
                      bands[bands.count() - 1].upper_nm, digest.text());
 }
 
+std::string to_text(const std::vector<MappedChannel>& map) {
+  std::string names;
+  Digest digest;
+  for (const MappedChannel& channel : map) {
+    names += channel.name + '\n';
+    digest.add(channel.band.lower_nm).add(channel.band.centre_nm).add(channel.band.upper_nm);
+  }
+  return fmt::format("{}#{}", quoted(std::as_const(names)), digest.text());
+}
+
 std::string to_text(const RgbSpace& space) {
   const Chromaticities& c = space.chromaticities;
   Digest digest;
@@ -93,11 +103,15 @@ class Line {
   Line& add(const ImageOptions& options) {
     // An option that is added there has to be looked at here: this no longer compiles then. Threads,
     // lanes, skipping and progress change no bit.
-    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, progress] =
-        options;
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, channels,
+                 progress] = options;
     add("pixel", to_string(pixel));
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
+    add("layer", quoted(channels.layer));
+    add("view", quoted(channels.view));
+    add("part", quoted(channels.part));
+    if (!channels.map.empty()) add("channels", to_text(channels.map));
     add("region", region ? to_text(*region) : "all");
     // As they are written: mip levels alone imply tiles.
     const auto written = io::tiles_of(options);
@@ -117,7 +131,6 @@ class Line {
     add("negative", enum_name(kNegatives, options.negative));
     add("out-of-gamut",
         options.out_of_gamut ? enum_name(kGamutPolicies, *options.out_of_gamut) : "by negative");
-    add("layer", quoted(options.layer));
     return *this;
   }
 

@@ -8,8 +8,11 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/sources/plan_attribute.hpp"
-#include "src/io/convert/sources/spectral_source.hpp"
+#include "src/io/convert/sources/coefficient_source.hpp"
+#include "src/io/channels/color_channels.hpp"
+#include "src/io/convert/sources/color_space.hpp"
+#include "src/io/channels/spectral_sets.hpp"
+#include "src/io/exr/attribute_texts.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/reference/half.hpp"
 
@@ -26,7 +29,7 @@ float sample_of(const io::Strip& strip, std::size_t plane, SampleType type, int 
 
 /// Channels to look at: ordinary ones by name, then spectral ones by wavelength. Subsampled ones are not.
 std::vector<io::PlaneSpec> planes_of(const io::PartHeader& header,
-                                     const std::optional<io::SpectralChannels>& spectral) {
+                                     const std::optional<io::SpectralSet>& spectral) {
   std::vector<io::PlaneSpec> planes;
   const auto is_spectral = [&](const std::string& name) {
     return spectral &&
@@ -64,30 +67,90 @@ void describe_header(const io::PartHeader& header, ImageInfo& info) {
   info.display_window = header.display_window();
   info.tiled = header.tiles().has_value();
   info.compression = header.compression() ? Compression{*header.compression(), -1}.description() : "unknown";
-  info.attributes = header.texts();
+  info.attributes = io::attribute_texts(header);
 }
 
-Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads) {
+void describe_parts(const io::ExrInput& input, ImageInfo& info) {
+  info.parts = input.parts();
+  for (int part = 0; part < input.parts(); ++part) {
+    const io::PartHeader& header = input.header(part);
+    PartInfo p;
+    p.name = header.text("name").value_or("");
+    p.view = header.text("view").value_or("");
+    p.deep = header.deep();
+    p.data_window = header.data_window();
+    p.display_window = header.display_window();
+    p.tiled = header.tiles().has_value();
+    p.levels = p.tiled && header.tiles()->has_levels ? io::level_count({header.width(), header.height()}) : 1;
+    p.compression = header.compression() ? Compression{*header.compression(), -1}.description() : "unknown";
+    p.channels = header.channels().size();
+    p.attributes = io::attribute_texts(header);
+    info.part_list.push_back(std::move(p));
+  }
+}
+
+void describe_contents(const io::ExrInput& input, int part, ImageInfo& info) {
+  for (const io::SpectralSet& set : io::spectral_sets(input)) info.contents.push_back(set.description());
+  std::size_t polarised = 0;
+  for (int i = 0; i < input.parts(); ++i) {
+    for (const io::StoredChannel& stored : input.header(i).channels()) {
+      const auto channel = io::parse_spectral_channel(stored.name, input.header(i));
+      polarised += channel && channel->kind == io::SpectralKind::kPolarised ? 1 : 0;
+    }
+    if (!input.header(i).deep() && io::claims_coefficients(input.header(i))) {
+      const std::string method = input.header(i).text("spectileMethod").value_or("unknown");
+      info.contents.push_back(
+          fmt::format("coefficients of {}; spectile expand turns them into spectra", method));
+    }
+  }
+  if (polarised > 0)
+    info.contents.push_back(fmt::format("{} channels of polarised light (S1, S2, S3)", polarised));
+  for (const io::ColorChannels& c : io::color_sets(input)) {
+    info.contents.push_back(io::description(input, c));
+    if (c.part != part || !info.color_space.empty()) continue;
+    info.alpha = c.alpha;
+    if (const auto space = io::color_space_of(input.header(part), input.path())) {
+      info.color_space = c.model == io::ColorModel::kXyz ? "CIE XYZ (D65)" : space->description;
+    } else {
+      info.notes.push_back(space.error().message);
+    }
+  }
+}
+
+Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads,
+                          const ChannelChoice& choice) {
   SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
-  int part = 0;
-  while (input->header(part).deep()) ++part;
-  const io::PartHeader& header = input->header(part);
   ImageInfo info;
-  describe_header(header, info);
-  info.parts = input->parts();
-  const auto spectral = io::spectral_channels(header, std::nullopt);
+  SPECTILE_ASSIGN(const auto named, io::chosen_part(*input, choice.part));
+  auto spectral = io::choose_spectra(*input, choice, std::nullopt, info.notes);
+  // A file whose spectra cannot be chosen among is described all the same, unless it was asked for.
+  const bool asked = !choice.layer.empty() || !choice.view.empty() || !choice.map.empty();
+  if (!spectral && asked) return spectral.error();
+  std::optional<io::SpectralSet> set;
   if (spectral) {
-    info.quantity = spectral->quantity;
-    const auto bands = Bands::from_centres(spectral->centres_nm);
-    if (!bands) return make_error(ErrorCode::kBadFile, "{}: {}", path, bands.error().message);
-    SPECTILE_ASSIGN(info.bands, io::with_plan(header, *bands, path));
+    set = *std::move(spectral);
+  } else {
+    info.notes.push_back(spectral.error().message);
+  }
+  int part = named.value_or(0);
+  while (!named && input->header(part).deep()) ++part;
+  if (set && (asked || named)) part = set->part;
+  if (set && set->part != part) set.reset();
+  const io::PartHeader& header = input->header(part);
+  describe_header(header, info);
+  describe_parts(*input, info);
+  describe_contents(*input, part, info);
+  if (set) {
+    info.quantity = set->quantity;
+    if (set->dialect != nullptr) info.dialect = std::string(set->dialect->name);
+    SPECTILE_ASSIGN(info.bands, set->bands(header, path));
   }
   if (pixel &&
       ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {
     return make_error(ErrorCode::kBadArgument, "pixel {},{} lies outside the image of {} x {}", (*pixel)[0],
                       (*pixel)[1], info.width, info.height);
   }
-  const std::vector<io::PlaneSpec> planes = planes_of(header, spectral);
+  const std::vector<io::PlaneSpec> planes = planes_of(header, set);
   for (const io::PlaneSpec& plane : planes) {
     ChannelInfo channel;
     channel.name = plane.name;
@@ -97,7 +160,7 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
     info.channels.push_back(channel);
   }
   const int step = io::strip_lines(header, planes, 1);
-  const std::size_t first_shown = spectral ? planes.size() - spectral->names.size() : 0;
+  const std::size_t first_shown = set ? planes.size() - set->names.size() : 0;
   for (int first = 0; first < info.height && !planes.empty(); first += step) {
     const int lines = std::min(step, info.height - first);
     SPECTILE_ASSIGN(auto strip, io::make_strip(planes, info.width, first, lines));
@@ -126,9 +189,9 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
 
 }  // namespace
 
-Result<ImageInfo> inspect_image(const std::string& path, std::optional<std::array<int, 2>> pixel,
-                                int threads) {
-  return io::contained<ImageInfo>(path, [&] { return inspect(path, pixel, threads); });
+Result<ImageInfo> inspect_image(const std::string& path, std::optional<std::array<int, 2>> pixel, int threads,
+                                const ChannelChoice& choice) {
+  return io::contained<ImageInfo>(path, [&] { return inspect(path, pixel, threads, choice); });
 }
 
 }  // namespace spectile

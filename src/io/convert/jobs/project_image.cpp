@@ -24,7 +24,7 @@ class ProjectJob : public io::ColorJob {
  public:
   ProjectJob(io::SpectralSource& source, const Projector& projector, const ProjectImageOptions& options,
              const kernels::KernelTable& kernels)
-      : ColorJob(source, source.bands().count(), options.target, options, kernels),
+      : ColorJob(source, source.samples(), options.target, options, kernels),
         source_(source),
         projector_(projector),
         options_(options) {
@@ -35,9 +35,7 @@ class ProjectJob : public io::ColorJob {
   }
 
  private:
-  std::size_t spectra_floats() const override {
-    return source_.bands().count() * kLanesPerBlock * tile_blocks();
-  }
+  std::size_t spectra_floats() const override { return source_.samples() * kLanesPerBlock * tile_blocks(); }
 
   void make_colors(std::size_t slot, const Strip& strip, int line, io::ColorLine& color, LineStats& stats,
                    bool /*checks_only*/) override {
@@ -60,7 +58,7 @@ class ProjectJob : public io::ColorJob {
 
   void project_line(float* spectra, const Strip& strip, int line, io::ColorLine& color) const {
     const std::size_t blocks = blocks_for(static_cast<std::size_t>(strip.width));
-    const std::size_t bands = source_.bands().count();
+    const std::size_t bands = source_.samples();
     float* const* rows = color.rows;
     for (std::size_t first = 0; first < blocks; first += tile_blocks()) {
       const std::size_t count = std::min(tile_blocks(), blocks - first);
@@ -98,16 +96,19 @@ Result<Projector> projector_for(const io::SpectralSource& source, const std::str
     }
     return Projector::emissive(source.bands(), options.observer);
   }
-  if (options.light) return Projector::reflective(source.bands(), *options.light, options.observer);
   SPECTILE_ASSIGN(const auto d65, illuminant("D65"));
-  return Projector::reflective(source.bands(), d65, options.observer);
+  std::vector<BandPair> pairs;
+  for (const io::ReradiationChannel& channel : source.reradiation()) {
+    pairs.push_back({channel.from_band, channel.to_band});
+  }
+  return Projector::reradiating(source.bands(), options.light.value_or(d65), pairs, options.observer);
 }
 
 Result<ImageReport> project_file(const std::string& input, const std::string& output,
                                  const ProjectImageOptions& options) {
   SPECTILE_ASSIGN(const auto setup, io::set_up_job(std::array{input}, output, options));
-  SPECTILE_ASSIGN(auto source,
-                  io::SpectralSource::open(input, options.quantity, setup.threads, options.region));
+  SPECTILE_ASSIGN(auto source, io::SpectralSource::open(input, options.channels, options.quantity,
+                                                        setup.threads, options.region));
   if (options.adaptation != Adaptation::kNone && source->quantity() == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: holds light, whose white is not adapted", input);
   }
@@ -119,6 +120,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   ProjectJob job(*source, projector, options, setup.kernels);
   io::TextAttributes texts;
   if (options.target == ColorTarget::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
+  if (options.target == ColorTarget::kXyz) texts = {{"colorInteropID", "lin_ciexyzd65_scene"}};
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   // The output is linear sRGB or CIE, whatever space the input's preview was in.

@@ -15,7 +15,8 @@ namespace {
 
 Result<RgbImage> read(const std::string& path, const std::string& layer, int threads) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  SPECTILE_ASSIGN(auto source, io::RgbSource::open(path, layer, tiles::thread_count(threads)));
+  SPECTILE_ASSIGN(auto source,
+                  io::RgbSource::open(path, ChannelChoice{layer, {}, {}, {}}, tiles::thread_count(threads)));
   RgbImage image;
   image.width = source->width();
   image.height = source->height();

@@ -143,7 +143,7 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
                               const io::Strip& strip, int line, const Projector& projector,
                               const std::vector<std::array<double, 3>>& oracle_weights,
                               VerifyReport& report) {
-  const std::size_t bands = source.bands().count();
+  const std::size_t bands = source.samples();
   SPECTILE_ASSIGN(auto memory, FloatBuffer::create((bands + 6) * kLanesPerBlock));
   float* const block = memory.data();
   float* const ours = block + bands * kLanesPerBlock;
@@ -236,20 +236,26 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
                                      const kernels::KernelTable& kernels) {
   const bool light = source.quantity() == Quantity::kIlluminant;
   SPECTILE_ASSIGN(const auto d65, illuminant("D65"));
-  SPECTILE_ASSIGN(const auto projector,
-                  light ? Projector::emissive(source.bands()) : Projector::reflective(source.bands(), d65));
+  std::vector<BandPair> band_pairs;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const io::ReradiationChannel& channel : source.reradiation()) {
+    band_pairs.push_back({channel.from_band, channel.to_band});
+    pairs.emplace_back(channel.from_band, channel.to_band);
+  }
+  SPECTILE_ASSIGN(const auto projector, light ? Projector::emissive(source.bands())
+                                              : Projector::reradiating(source.bands(), d65, band_pairs));
   // A plan's weights are given; the oracle integrates those of other bands itself.
   const auto own = projector.weights();
   const auto weights =
       source.bands().weights() != nullptr
           ? std::vector<std::array<double, 3>>(own.begin(), own.end())
-          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &d65);
+          : oracle::projection_weights(source.bands(), Observer::kCie1931, light ? nullptr : &d65, pairs);
   VerifyReport report;
   report.isa = kernels.name;
   report.what =
       fmt::format("projection of {}, {} bands", to_string(source.quantity()), source.bands().count());
   // Roundings of the sum and of the weights, and what the oracle's own sum at 0.01 nm is off by.
-  report.oracle_bound = static_cast<double>(source.bands().count() + 2) * kUlp + 1e-8;
+  report.oracle_bound = static_cast<double>(source.samples() + 2) * kUlp + 1e-8;
   const int step = io::strip_lines(source.header(), source.planes(), 1);
   for (int first = 0; first < source.height(); first += step) {
     const int lines = std::min(step, source.height() - first);
@@ -266,9 +272,9 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
 Result<VerifyReport> verify(const std::string& path, const MethodOptions& options) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  auto spectral = io::SpectralSource::open(path, std::nullopt, threads, options.region);
+  auto spectral = io::SpectralSource::open(path, options.channels, std::nullopt, threads, options.region);
   if (spectral) return verify_spectral(**spectral, options, *kernels);
-  SPECTILE_ASSIGN(auto rgb, io::RgbSource::open(path, options.layer, threads, options.region));
+  SPECTILE_ASSIGN(auto rgb, io::RgbSource::open(path, options.channels, threads, options.region));
   return verify_rgb(*rgb, options, *kernels);
 }
 

@@ -5,7 +5,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/convert/sources/method_attributes.hpp"
-#include "src/io/convert/sources/spectral_layout.hpp"
+#include "src/io/channels/spectral_layout.hpp"
 
 namespace spectile::io {
 namespace {
@@ -22,7 +22,7 @@ bool claims_coefficients(const PartHeader& header) {
   bool spectral = false;
   for (const StoredChannel& channel : header.channels()) {
     if (is_coefficient(channel.name)) return true;
-    spectral = spectral || parse_spectral_channel(channel.name).has_value();
+    spectral = spectral || parse_spectral_channel(channel.name, header).has_value();
   }
   return !spectral && header.has_attribute("spectileCoefficients");
 }
@@ -63,7 +63,7 @@ Result<void> CoefficientSource::choose_channels() {
   coefficients_ = planes_.size();
   for (const StoredChannel& channel : header().channels()) {
     const std::string& name = channel.name;
-    if (parse_spectral_channel(name)) {
+    if (parse_spectral_channel(name, header())) {
       return make_error(ErrorCode::kBadFile, "{}: holds spectral channels already (\"{}\")", path, name);
     }
     if (is_coefficient(name)) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/io/channels/plan_attribute.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile::io {

@@ -6,15 +6,20 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/convert/sources/spectral_layout.hpp"
+#include "src/io/channels/spectral_layout.hpp"
 
 namespace spectile::io {
-Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
+
+Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const ChannelChoice& choice,
                                                    int threads, const std::optional<PixelWindow>& region) {
   std::unique_ptr<RgbSource> source(new RgbSource);
   SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
-  SPECTILE_TRY(source->choose(layer));
-  SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
+  SPECTILE_TRY(source->choose(choice));
+  if (source->colors_.model == ColorModel::kXyz) {
+    SPECTILE_ASSIGN(source->space_, rgb_space("xyz"));
+  } else {
+    SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
+  }
   SPECTILE_TRY(source->choose_region(region));
   if (source->with_chroma_) {
     SPECTILE_ASSIGN(source->chroma_, LumaChromaReader::open(path, threads));
@@ -22,84 +27,74 @@ Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, cons
   return source;
 }
 
-Result<void> RgbSource::choose(const std::string& layer) {
+Result<void> RgbSource::choose(const ChannelChoice& choice) {
   const std::string& path = input_->path();
-  bool found = false;
-  for (int part = 0; part < input_->parts() && !found; ++part) {
-    if (input_->header(part).deep()) continue;
-    const PartHeader& h = input_->header(part);
-    if (layer.empty()) {
-      found = choose_in_part(part, "");
-    } else {
-      found = choose_in_part(part, layer + ".");
-      if (!found && (h.text("name") == layer || h.text("view") == layer)) found = choose_in_part(part, "");
-    }
-  }
-  if (!found) {
-    if (layer.empty()) return make_error(ErrorCode::kBadFile, "{}: has no channels R, G, B (nor Y)", path);
-    return make_error(ErrorCode::kBadFile, "{}: has no layer, view or part \"{}\" with channels R, G, B",
-                      path, layer);
-  }
-  for (const StoredChannel& channel : header().channels()) {
-    if (!parse_spectral_channel(channel.name)) continue;
+  SPECTILE_ASSIGN(const auto found, choose_colors(*input_, choice, notes_));
+  for (const StoredChannel& channel : input_->header(found.part).channels()) {
+    if (!parse_spectral_channel(channel.name, input_->header(found.part))) continue;
     return make_error(ErrorCode::kBadFile, "{}: holds spectral channels already (\"{}\")", path,
                       channel.name);
   }
+  part_ = found.part;
   if (claims_coefficients(header())) {
     return make_error(ErrorCode::kBadFile,
                       "{}: holds coefficients already; expanding turns them into spectra", path);
   }
-  for (const std::string& name : {red_, green_, blue_}) {
-    if (!with_chroma_) SPECTILE_TRY(check_sampling(*header().find(name), path));
+  colors_ = found;
+  take_colors();
+  if (!with_chroma_) {
+    for (const std::string& name : colors_.names) SPECTILE_TRY(check_sampling(*header().find(name), path));
   }
+  choose_passing();
   return {};
 }
 
-bool RgbSource::choose_in_part(int part, const std::string& prefix) {
-  const PartHeader& h = input_->header(part);
-  const auto has = [&](const char* name) { return h.find(prefix + name) != nullptr; };
-  const auto type = [&](const std::string& name) { return readable_type(h.find(name)->type); };
-  if (has("R") && has("G") && has("B")) {
-    red_ = prefix + "R";
-    green_ = prefix + "G";
-    blue_ = prefix + "B";
-    planes_ = {{"R", type(red_)}, {"G", type(green_)}, {"B", type(blue_)}};
-    file_names_ = {red_, green_, blue_};
-  } else if (has("Y")) {
-    // OpenEXR puts luminance and chroma together for the plain channels of a file's first part.
-    with_chroma_ = prefix.empty() && part == 0 && has("RY") && has("BY");
-    red_ = green_ = blue_ = prefix + "Y";
-    const SampleType plane_type = with_chroma_ ? SampleType::kHalf : type(red_);
-    planes_ = {{"R", plane_type}, {"G", plane_type}, {"B", plane_type}};
-    file_names_ = {red_, "", ""};
-    if (with_chroma_) file_names_ = {"", "", ""};
-  } else {
-    return false;
+void RgbSource::take_colors() {
+  const PartHeader& h = header();
+  const bool luminance = colors_.model == ColorModel::kLuminance;
+  // OpenEXR puts luminance and chroma together for the plain channels of a file's first part.
+  with_chroma_ = luminance && colors_.prefix.empty() && part_ == 0 && h.find("RY") && h.find("BY");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SampleType type = with_chroma_ ? SampleType::kHalf : readable_type(h.find(colors_.names[k])->type);
+    planes_.push_back({std::string(1, "RGB"[k]), type});
+    // Luminance alone is read once and copied.
+    file_names_.push_back(with_chroma_ || (luminance && k > 0) ? std::string() : colors_.names[k]);
   }
-  part_ = part;
-  choose_passing(prefix);
-  return true;
 }
 
-void RgbSource::choose_passing(const std::string& prefix) {
+void RgbSource::choose_passing() {
+  const std::string& prefix = colors_.prefix;
+  const bool luminance = colors_.model == ColorModel::kLuminance;
   for (const StoredChannel& channel : header().channels()) {
     const std::string& name = channel.name;
     const std::string plain = name.starts_with(prefix) ? name.substr(prefix.size()) : "";
-    if (plain == "R" || plain == "G" || plain == "B") continue;
-    if (red_ == prefix + "Y" && (plain == "Y" || plain == "RY" || plain == "BY")) continue;
+    if (std::find(colors_.names.begin(), colors_.names.end(), name) != colors_.names.end()) continue;
+    if (luminance && (plain == "RY" || plain == "BY")) continue;
     if (name == "R" || name == "G" || name == "B") {
       notes_.push_back(fmt::format("channel \"{}\" gives way to the preview of layer \"{}\"", name,
                                    prefix.substr(0, prefix.size() - 1)));
       continue;
     }
+    if (is_of_another_view(name)) continue;
     if (!passes(channel, notes_)) continue;
-    if (plain == "A") alpha_ = planes_.size();
+    if (name == colors_.alpha) alpha_ = planes_.size();
     planes_.push_back({name, channel.type});
     file_names_.push_back(name);
   }
   if (input_->parts() > 1) {
     notes_.push_back(fmt::format("{} other parts of the file are left out", input_->parts() - 1));
   }
+  if (!other_views_.empty()) {
+    notes_.push_back(fmt::format("left out: view {} (see --view)", fmt::join(other_views_, ", ")));
+  }
+}
+
+/// True for a channel of a view that is not the one taken, which is then noted.
+bool RgbSource::is_of_another_view(const std::string& name) {
+  const std::string view = view_of(name, header().views());
+  if (view.empty() || view == colors_.view) return false;
+  other_views_.insert(view);
+  return true;
 }
 
 Result<std::shared_ptr<Strip>> RgbSource::read(int first_line, int lines) {

@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <optional>
-#include <spectile/result.hpp>
+#include <set>
+#include <spectile/image/image.hpp>
 #include <string>
 #include <vector>
 
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/channels/color_channels.hpp"
 #include "src/io/convert/sources/color_space.hpp"
 #include "src/io/convert/sources/image_source.hpp"
 
@@ -16,9 +18,9 @@ namespace spectile::io {
 /// An open RGB image. Planes 0, 1, 2 of its strips are red, green, blue; the others pass through.
 class RgbSource : public ImageSource {
  public:
-  /// Finds R, G, B (or Y, or Y, RY, BY) of a layer, view or part, or the plain ones for an empty name.
-  /// Errors: kBadFile, kNoPermission; those of RegionReader.
-  static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer,
+  /// Finds the colour channels that the choice asks for. Errors: kBadFile, kNoPermission; those of
+  /// choose_colors() and RegionReader.
+  static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const ChannelChoice& choice,
                                                  int threads, const std::optional<PixelWindow>& region = {});
 
   const RgbSpace& color_space() const noexcept { return space_; }
@@ -34,12 +36,14 @@ class RgbSource : public ImageSource {
 
  private:
   RgbSource() = default;
-  Result<void> choose(const std::string& layer);
-  bool choose_in_part(int part, const std::string& prefix);
-  void choose_passing(const std::string& prefix);
+  Result<void> choose(const ChannelChoice& choice);
+  void take_colors();
+  void choose_passing();
+  bool is_of_another_view(const std::string& name);
 
   std::unique_ptr<LumaChromaReader> chroma_;  // of luminance and chroma
-  std::string red_, green_, blue_;            // channel names in the file; all the same for luminance alone
+  ColorChannels colors_;
+  std::set<std::string> other_views_;
   bool with_chroma_ = false;
   std::vector<std::string> file_names_;
   std::optional<std::size_t> alpha_;

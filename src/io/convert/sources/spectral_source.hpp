@@ -10,44 +10,36 @@
 
 #include "src/dispatch/dispatch.hpp"
 #include "src/io/convert/sources/image_source.hpp"
+#include "src/io/channels/spectral_sets.hpp"
 
 namespace spectile::io {
 
-/// The spectral channels of one part: names in ascending order of wavelength.
-struct SpectralChannels {
-  Quantity quantity = Quantity::kReflectance;
-  std::vector<std::string> names;
-  std::vector<double> centres_nm;
-};
-
-/// Finds a part's spectral channels of the quantity asked for, else the reflective ones, else the emissive
-/// ones. Nothing where there are none.
-std::optional<SpectralChannels> spectral_channels(const PartHeader& header, std::optional<Quantity> wanted);
-
-/// The planes of spectral channels, in their order. Errors: kBadFile for one that is subsampled.
-Result<std::vector<PlaneSpec>> band_planes(const PartHeader& header, const SpectralChannels& channels,
-                                           const std::string& path);
-
-/// Planes 0 to bands - 1 of its strips are the bands, the others pass through.
+/// Planes 0 to bands - 1 of its strips are the bands, those up to samples() - 1 re-radiation, if there is
+/// any; the others pass through.
 class SpectralSource : public ImageSource {
  public:
-  /// Errors: kBadFile, kNoPermission; those of RegionReader.
-  static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, std::optional<Quantity> wanted,
-                                                      int threads,
+  /// Errors: kBadFile, kNoPermission; those of choose_spectra() and RegionReader.
+  static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, const ChannelChoice& choice,
+                                                      std::optional<Quantity> wanted, int threads,
                                                       const std::optional<PixelWindow>& region = {});
 
-  Quantity quantity() const noexcept { return channels_.quantity; }
+  Quantity quantity() const noexcept { return set_.quantity; }
   const Bands& bands() const noexcept { return bands_; }
 
-  /// The spectra of kLanesPerBlock pixels from x on, as a block [band][64]; x a multiple of kLanesPerBlock,
+  const std::vector<ReradiationChannel>& reradiation() const noexcept { return reradiation_; }
+  /// Bands and channels of re-radiation.
+  std::size_t samples() const noexcept { return bands_.count() + reradiation_.size(); }
+
+  /// The samples of kLanesPerBlock pixels from x on, as a block [sample][64]; x a multiple of kLanesPerBlock,
   /// pixels after the line's end zero.
   void block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
              float* block) const;
 
  private:
   SpectralSource() = default;
-  SpectralChannels channels_;
+  SpectralSet set_;
   Bands bands_;
+  std::vector<ReradiationChannel> reradiation_;
 };
 
 }  // namespace spectile::io

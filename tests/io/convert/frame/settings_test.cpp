@@ -103,30 +103,31 @@ void add_method_options(Texts& texts, const Options& usual) {
     texts.add(bands, options);
   }
   const NamedLight changed = {"lamp", kLamp.spectrum.scaled(1 + 1e-15)};
-  add_each<Options>(texts, usual,
-                    {{"unbounded", [](Options& o) { o.quantity = Quantity::kUnbounded; }},
-                     {"illuminant", [](Options& o) { o.quantity = Quantity::kIlluminant; }},
-                     {"light", [](Options& o) { o.light = kLamp; }},
-                     {"light's samples", [&](Options& o) { o.light = changed; }},
-                     {"light's name",
-                      [](Options& o) {
-                        o.light = NamedLight{"lamp\"", kLamp.spectrum};
-                      }},
-                     {"white observer", [](Options& o) { o.observer = Observer::kCie1964; }},
-                     {"clip negative", [](Options& o) { o.negative = NegativeInput::kClip; }},
-                     {"keep negative", [](Options& o) { o.negative = NegativeInput::kKeep; }},
-                     {"stop at negative", [](Options& o) { o.negative = NegativeInput::kError; }},
-                     {"clip gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kClip; }},
-                     {"keep gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kKeep; }},
-                     {"stop at gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kError; }},
-                     {"under D65",
-                      [](Options& o) {
-                        o.input_space = *rgb_space("srgb");
-                        o.input_space->relative_to_d65 = !o.input_space->relative_to_d65;
-                      }},
-                     {"layer", [](Options& o) { o.layer = "left"; }},
-                     {"layer that looks like more", [](Options& o) { o.layer = "left\"; store=\"x\n"; }},
-                     {"layer with a backslash", [](Options& o) { o.layer = "left\\\"; store=\\\"x\\x0a"; }}});
+  add_each<Options>(
+      texts, usual,
+      {{"unbounded", [](Options& o) { o.quantity = Quantity::kUnbounded; }},
+       {"illuminant", [](Options& o) { o.quantity = Quantity::kIlluminant; }},
+       {"light", [](Options& o) { o.light = kLamp; }},
+       {"light's samples", [&](Options& o) { o.light = changed; }},
+       {"light's name",
+        [](Options& o) {
+          o.light = NamedLight{"lamp\"", kLamp.spectrum};
+        }},
+       {"white observer", [](Options& o) { o.observer = Observer::kCie1964; }},
+       {"clip negative", [](Options& o) { o.negative = NegativeInput::kClip; }},
+       {"keep negative", [](Options& o) { o.negative = NegativeInput::kKeep; }},
+       {"stop at negative", [](Options& o) { o.negative = NegativeInput::kError; }},
+       {"clip gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kClip; }},
+       {"keep gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kKeep; }},
+       {"stop at gamut", [](Options& o) { o.out_of_gamut = GamutPolicy::kError; }},
+       {"under D65",
+        [](Options& o) {
+          o.input_space = *rgb_space("srgb");
+          o.input_space->relative_to_d65 = !o.input_space->relative_to_d65;
+        }},
+       {"layer", [](Options& o) { o.channels.layer = "left"; }},
+       {"layer that looks like more", [](Options& o) { o.channels.layer = "left\"; store=\"x\n"; }},
+       {"layer with a backslash", [](Options& o) { o.channels.layer = "left\\\"; store=\\\"x\\x0a"; }}});
 }
 
 TEST(Settings, DifferentOptionsGiveDifferentTexts) {

@@ -210,7 +210,7 @@ TEST_F(PixelMasks, ALayersAlphaIsItsOwn) {
   picture_.add("A", Imf::HALF, [](int, int) { return 0; });
   picture_.add("hat.A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
   test::write_scanlines(folder_ / "in.exr", picture_);
-  options_.layer = "hat";
+  options_.channels.layer = "hat";
   const auto report = upsample_image(folder_ / "in.exr", folder_ / "out.exr", options_);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->skipped.masked_pixels, 1400U);

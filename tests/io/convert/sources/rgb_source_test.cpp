@@ -27,7 +27,7 @@ class RgbSourceImages : public testing::Test {
   /// Upsamples; its spectra.
   std::map<std::string, test::Plane> upsampled(const std::string& input, const std::string& layer = "") {
     UpsampleImageOptions options;
-    options.layer = layer;
+    options.channels.layer = layer;
     report_ = upsample_image(input, folder_ / "out.exr", options);
     if (!report_) {
       ADD_FAILURE() << report_.error().message;
@@ -140,7 +140,7 @@ TEST_F(RgbSourceImages, LayersAreTakenByName) {
   EXPECT_FALSE(upsampled(folder_ / "in.exr", "deep.er") == expected);
   EXPECT_FALSE(upsampled(folder_ / "in.exr") == expected);
   UpsampleImageOptions options;
-  options.layer = "right";
+  options.channels.layer = "right";
   const auto missing = upsample_image(folder_ / "in.exr", folder_ / "none.exr", options);
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kBadFile);

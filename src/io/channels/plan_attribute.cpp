@@ -1,5 +1,5 @@
 // The plan of a file's bands, as an attribute.
-#include "src/io/convert/sources/plan_attribute.hpp"
+#include "src/io/channels/plan_attribute.hpp"
 
 #include <cmath>
 #include <spectile/image/plan_file.hpp>

@@ -1,5 +1,5 @@
 // ZIP compression of one chunk: OpenEXR's byte filter, and deflate by ISA-L or libdeflate.
-#include "src/io/exr/zip_encoder.hpp"
+#include "src/io/exr/encoders/zip_encoder.hpp"
 
 #include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
