@@ -1,4 +1,5 @@
 // Projection to CIE XYZ, luminance and a sensor's RGB, and XYZ to and from linear sRGB.
+#include <algorithm>
 #include <cmath>
 #include <spectile/color/sensor.hpp>
 
@@ -32,15 +33,23 @@ std::array<MeasuredSpectrum, 3> matching_functions(Observer observer) {
           matching_function(table, table.z_bar)};
 }
 
-/// XYZ to sRGB with this white at RGB 1, 1, 1, or with the standard's where this one is far from it.
-Matrix3 white_keeping_srgb(const std::array<double, 3>& white) {
-  constexpr double kFar = 0.1;
-  const std::array<double, 3> scaled = {white[0] / white[1], 1.0, white[2] / white[1]};
-  const std::array<double, 3> rgb = times(xyz_to_srgb_matrix(), scaled);
-  for (const double v : rgb) {
-    if (!(std::abs(v - 1) <= kFar)) return xyz_to_srgb_matrix();
-  }
-  return inverse(rgb_to_xyz(kRec709, scaled));
+/// Share of a white's tint that is taken out: all where no component of its sRGB is more than kNear off 1, none from kFar
+/// on, and evenly less in between, so that no small change of the bands makes a step.
+double compensated_share(const std::array<double, 3>& white) {
+  constexpr double kNear = 0.1;
+  constexpr double kFar = 0.3;
+  double off = 0;
+  for (const double v : times(xyz_to_srgb_matrix(), white)) off = std::max(off, std::abs(v - 1));
+  return off <= kFar ? std::min(1.0, (kFar - off) / (kFar - kNear)) : 0;
+}
+
+/// XYZ to sRGB with this white, of Y = 1, at RGB 1, 1, 1, as far as the share says.
+Matrix3 white_keeping_srgb(const std::array<double, 3>& white, double share) {
+  if (share == 0) return xyz_to_srgb_matrix();
+  if (share == 1) return inverse(rgb_to_xyz(kRec709, white));
+  std::array<double, 3> kept = chromaticity_to_xyz(kRec709.white);
+  for (std::size_t k = 0; k < 3; ++k) kept[k] += share * (white[k] - kept[k]);
+  return inverse(rgb_to_xyz(kRec709, kept));
 }
 
 /// Weights of planned bands: their sensor, times the emission of a light where there is one.
@@ -104,7 +113,9 @@ Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpect
   Projector out;
   out.bands_ = bands;
   out.observer_ = observer;
-  out.xyz_to_srgb_ = white_keeping_srgb(d65_white);
+  const std::array<double, 3> seen = {d65_white[0] / d65_white[1], 1.0, d65_white[2] / d65_white[1]};
+  out.white_compensation_ = compensated_share(seen);
+  out.xyz_to_srgb_ = white_keeping_srgb(seen, out.white_compensation_);
   for (const auto& w : weights) out.add_band({w[0] / luminance, w[1] / luminance, w[2] / luminance});
   return out;
 }

@@ -108,6 +108,29 @@ TEST(Projector, WhitesAreThePublished) {
   }
 }
 
+TEST(Projector, WhiteOfCutOffBandsMovesWithoutAStep) {
+  const MeasuredSpectrum d65 = *illuminant("D65");
+  std::array<double, 3> before{};
+  bool all = false;
+  bool part = false;
+  bool none = false;
+  for (double first = 400; first <= 500; first += 0.25) {
+    const auto projector = *Projector::reflective(*Bands::uniform(first, first + 280, 20), d65);
+    const std::array<double, 3> white = times(projector.xyz_to_srgb(), projector.white());
+    const double share = projector.white_compensation();
+    if (share == 1) {
+      for (const double v : white) EXPECT_NEAR(v, 1, 1e-12) << first;
+    }
+    if (share == 0) EXPECT_EQ(projector.xyz_to_srgb(), xyz_to_srgb_matrix()) << first;
+    all = all || share == 1;
+    part = part || (share > 0 && share < 1);
+    none = none || share == 0;
+    for (std::size_t k = 0; first > 400 && k < 3; ++k) EXPECT_NEAR(white[k], before[k], 0.01) << first;
+    before = white;
+  }
+  EXPECT_TRUE(all && part && none);
+}
+
 TEST(Projector, ObserversDiffer) {
   const auto two = Projector::emissive(Bands(), Observer::kCie1931)->white();
   const auto ten = Projector::emissive(Bands(), Observer::kCie1964)->white();

@@ -64,9 +64,12 @@ class Projector {
   /// This projector's XYZ to linear sRGB, such that D65 is exactly RGB 1, 1, 1 as these bands and this
   /// observer see it: a perfect diffuser under D65, or D65 itself scaled to Y = 1. So bands that cut off part
   /// of the visible range do not tint white, and a method's RGB comes back exactly. Where they cut off so
-  /// much that D65 is more than 10 % off in a component, it is xyz_to_srgb_matrix(). Other lights are not
-  /// adapted. For a sensor it is the identity: see fit_sensor_to_xyz().
+  /// much that D65 is more than 10 % off in a component, part of the tint stays: see white_compensation().
+  /// Other lights are not adapted. For a sensor it is the identity: see fit_sensor_to_xyz().
   const Matrix3& xyz_to_srgb() const noexcept { return xyz_to_srgb_; }
+  /// Share of the tint of D65 that xyz_to_srgb() takes out: 1 up to 10 % off in a component of sRGB, 0 from 30 % on,
+  /// evenly less in between. 1 for a sensor.
+  double white_compensation() const noexcept { return white_compensation_; }
   /// Shapes: [bands][3], in double before rounding to the kernels' float.
   std::span<const std::array<double, 3>> weights() const noexcept { return weights_; }
 
@@ -79,6 +82,7 @@ class Projector {
   Bands bands_;
   std::optional<Observer> observer_;
   Matrix3 xyz_to_srgb_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  double white_compensation_ = 1;
   std::vector<std::array<double, 3>> weights_;
   std::vector<float> float_weights_;
   std::vector<float> luminance_weights_;

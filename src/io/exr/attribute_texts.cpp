@@ -29,8 +29,9 @@ namespace {
 
 /// Those that PartHeader has members for, or that say nothing.
 bool is_shown_elsewhere(std::string_view name) {
-  static const std::set<std::string_view> kNames = {
-      "channels", "chunkCount", "compression", "dataWindow", "displayWindow", "tiles", "type", "version"};
+  static const std::set<std::string_view> kNames = {"channels",   "chunkCount",    "compression",
+                                                    "dataWindow", "displayWindow", "lineOrder",
+                                                    "tiles",      "type",          "version"};
   return kNames.contains(name);
 }
 
