@@ -10,11 +10,12 @@
 
 namespace spectile::io {
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const std::string& layer,
-                                                   int threads, const std::optional<PixelWindow>& region) {
+                                                   int threads, const std::optional<PixelWindow>& region,
+                                                   const std::optional<RgbSpace>& stated) {
   std::unique_ptr<RgbSource> source(new RgbSource);
   SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
   SPECTILE_TRY(source->choose(layer));
-  SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
+  SPECTILE_ASSIGN(source->space_, input_space_of(source->header(), path, stated, source->notes_));
   SPECTILE_TRY(source->choose_region(region));
   if (source->with_chroma_) {
     SPECTILE_ASSIGN(source->chroma_, LumaChromaReader::open(path, threads));

@@ -17,9 +17,10 @@ namespace spectile::io {
 class RgbSource : public ImageSource {
  public:
   /// Finds R, G, B (or Y, or Y, RY, BY) of a layer, view or part, or the plain ones for an empty name.
-  /// Errors: kBadFile, kNoPermission; those of RegionReader.
+  /// `stated`: the RGB space, whatever the file says. Errors: kBadFile, kNoPermission; those of RegionReader.
   static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const std::string& layer,
-                                                 int threads, const std::optional<PixelWindow>& region = {});
+                                                 int threads, const std::optional<PixelWindow>& region = {},
+                                                 const std::optional<RgbSpace>& stated = {});
 
   const RgbSpace& color_space() const noexcept { return space_; }
   /// The plane of the colours' own alpha, where they have one.
