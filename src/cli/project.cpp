@@ -27,8 +27,9 @@ int run_project(const ProjectArguments& a) {
   if (!a.illuminant.empty()) options.light = take(find_light(a.illuminant)).spectrum;
   options.adaptation = a.adapt;
   options.quantity = a.quantity;
-  return run_jobs(a.image, settings_text(options), files_among({a.illuminant}), options.progress,
-                  [&](const Job& job) { return project_image(job.input, job.output, options); });
+  return run_jobs(
+      a.image, {settings_text(options), files_among({{a.illuminant, kIlluminantRole}}), {}, a.illuminant},
+      options.progress, [&](const Job& job) { return project_image(job.input, job.output, options); });
 }
 
 }  // namespace
