@@ -92,7 +92,7 @@ def make_plan(args, lights, bands, sample, bounces=1, more=()):
     if args.chart is None:
         named = [json.loads(line) for line in run([args.tool, "spectra", "--json"])[0].splitlines()]
         args.chart = [s["name"] for s in named if s["kind"] == "reflectance"]
-    words = [args.tool, "plan", "--json", "-o", args.file("plan.json"), "--bands", bands, "--sample", sample, "--bounces",
+    words = [args.tool, "plan", "--json", "-o", args.file("plan.json"), "--count", bands, "--sample", sample, "--bounces",
              bounces, "--threads", 1, *more]
     for light in lights:
         words += ["--illuminant", light]
@@ -261,7 +261,7 @@ def methods(args):
     cube, spectra, back = grid(args.file("cube.exr"), args.side), args.file("spectra.exr"), args.file("back.exr")
     rows = []
     for method in METHODS:
-        tool(args, "upsample", cube, "-o", spectra, "--method", method, "--pixel", "float", "--compression", "none")
+        tool(args, "upsample", cube, "-o", spectra, "--method", method, "--depth", "float", "--compression", "none")
         tool(args, "project", spectra, "-o", back, "--compression", "none")
         channel, low, high, rough = 0, 1, 0, []
         a, b, image = Image(cube), Image(back), Image(spectra)
@@ -284,7 +284,7 @@ def methods(args):
     for space in ("srgb", "display-p3", "adobe-rgb", "rec2020", "acescg", "aces2065-1"):
         row = [space]
         for method in ("smits-exact", "sigmoid"):
-            words = ("upsample", cube, "--input-space", space, "--method", method, "--pixel", "float", "--compression", "none")
+            words = ("upsample", cube, "--input-space", space, "--method", method, "--depth", "float", "--compression", "none")
             tool(args, *words, "-o", args.file("kept.exr"), "--out-of-gamut", "keep")
             outside = tool(args, *words, "-o", args.file("clipped.exr"), "--out-of-gamut", "clip")["out_of_gamut_pixels"]
             moved = [e for e in color_errors(args.file("kept.exr"), args.file("clipped.exr")) if e > 1e-4] or [0]

@@ -51,6 +51,18 @@ std::string temporary_name(const std::string& target) {
       .string();
 }
 
+/// The end of a chain of symbolic links that leads to no file yet, so that the links stay.
+std::string end_of_links(const std::string& path) {
+  std::filesystem::path at = path;
+  std::error_code error;
+  constexpr int kMaxLinks = 40;  // as Linux follows
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(at, error); ++i) {
+    // A relative target replaces the link's own name; an absolute one replaces all of it.
+    at = at.parent_path() / std::filesystem::read_symlink(at, error);
+  }
+  return at.string();
+}
+
 }  // namespace
 
 Result<AtomicFile> AtomicFile::create(const std::string& path) {
@@ -61,6 +73,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   struct stat status {};
   bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return system_error(path, "write", errno);
+  if (!exists) file.target_ = end_of_links(path);
   if (exists) {
     if (S_ISDIR(status.st_mode))
       return make_error(ErrorCode::kBadFile, "{}: cannot write: is a directory", path);

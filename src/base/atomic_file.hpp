@@ -9,7 +9,8 @@
 namespace spectile::io {
 
 /// Written without a name where the system can (so that a killed run leaves nothing), else under a temporary
-/// name beside the target; commit() puts it in the target's place.
+/// name beside the target; commit() puts it in the target's place. Symbolic links are followed and stay, also
+/// one that leads to no file yet.
 class AtomicFile {
  public:
   /// Errors: kNoPermission, kNoSpace, kBadFile (a target that is a directory or a device, a folder that is

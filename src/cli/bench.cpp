@@ -10,6 +10,8 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -40,44 +42,43 @@ std::string place(const std::string& isa, int threads, MemoryLevel level) {
 }
 
 void print_machine(const BenchmarkReport& r) {
-  fmt::print("{}, {} core{}, {}, {}\n", r.machine.processor, r.machine.cores, r.machine.cores == 1 ? "" : "s",
-             r.machine.system, r.machine.compiler);
-  for (const std::string& text : r.disturbed) fmt::print("DISTURBED: {}\n", text);
+  print("{}, {} core{}, {}, {}\n", r.machine.processor, r.machine.cores, r.machine.cores == 1 ? "" : "s",
+        r.machine.system, r.machine.compiler);
+  for (const std::string& text : r.disturbed) print("DISTURBED: {}\n", text);
 }
 
 void print_operations(const BenchmarkReport& r) {
   for (const MachineLimit& l : r.limits) {
-    fmt::print(
+    print(
         "\n{}: load {:.3g}, store {:.3g}, non-temporal store {:.3g}, copy {:.3g} GB/s; multiply-add "
         "{:.3g} G/s, fused {:.3g}, divide {:.3g}\n",
         place(l.isa, l.threads, l.level), l.load * 1e-9, l.store * 1e-9, l.stream * 1e-9, l.copy * 1e-9,
         l.multiply_add * 1e-9, l.fused_multiply_add * 1e-9, l.divide * 1e-9);
     for (const OperationSpeed& o : r.operations) {
       if (o.isa != l.isa || o.threads != l.threads || o.level != l.level) continue;
-      fmt::print("  {:<42} {:>10} {:>6.1f} GB/s {:>4.0f} % of {:<12} +-{:<3.0f}% error {:.2g} of {:.3g} {}\n",
-                 o.name, rate(o.items_per_second), o.bytes_per_second * 1e-9, 100 * o.fraction, o.limit,
-                 100 * o.spread, o.error, o.bound, o.error_unit);
-      if (!o.note.empty()) fmt::print("  {:<42} bound by {}\n", "", o.note);
+      print("  {:<42} {:>10} {:>6.1f} GB/s {:>4.0f} % of {:<12} +-{:<3.0f}% error {:.2g} of {:.3g} {}\n",
+            o.name, rate(o.items_per_second), o.bytes_per_second * 1e-9, 100 * o.fraction, o.limit,
+            100 * o.spread, o.error, o.bound, o.error_unit);
+      if (!o.note.empty()) print("  {:<42} bound by {}\n", "", o.note);
     }
   }
 }
 
 void print_baseline(const BenchmarkReport& r) {
   if (r.baseline.empty()) return;
-  fmt::print(
+  print(
       "\nAgainst the scalar array-of-structures baseline, one thread, {}\n  {:<50} {:>9} {:>11} {:>7} {:>10} "
       "{:>7}\n",
       r.machine.processor, "", "ns", "baseline ns", "ratio", "tuned ns", "ratio");
   for (const BaselineSpeed& b : r.baseline) {
-    fmt::print("  {:<50} {:>9.3g} {:>11.3g} {:>7.3g}", b.name, b.nanoseconds, b.baseline_nanoseconds,
-               b.ratio);
+    print("  {:<50} {:>9.3g} {:>11.3g} {:>7.3g}", b.name, b.nanoseconds, b.baseline_nanoseconds, b.ratio);
     if (b.fused_nanoseconds > 0) {
-      fmt::print(" {:>10.3g} {:>7.3g}", b.fused_nanoseconds, b.fused_ratio);
+      print(" {:>10.3g} {:>7.3g}", b.fused_nanoseconds, b.fused_ratio);
     } else {
-      fmt::print(" {:>10} {:>7}", "", "");
+      print(" {:>10} {:>7}", "", "");
     }
-    fmt::print(" error {:.2g}, baseline {:.2g} {}; {:.0f} % of {}\n", b.error, b.baseline_error, b.error_unit,
-               100 * b.fraction, b.limit);
+    print(" error {:.2g}, baseline {:.2g} {}; {:.0f} % of {}\n", b.error, b.baseline_error, b.error_unit,
+          100 * b.fraction, b.limit);
   }
 }
 
@@ -92,19 +93,19 @@ void print_methods(const BenchmarkReport& r) {
     const std::string now = fmt::format("{}: {}", short_name(w.job), w.light);
     if (now != heading) {
       heading = now;
-      fmt::print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.line_spectrum ? " (line spectrum)" : "",
-                 "", "ns", "mean", "95 %", "max");
+      print("\n{}{}\n  {:<50} {:>9} {:>7} {:>7} {:>7}\n", now, w.line_spectrum ? " (line spectrum)" : "", "",
+            "ns", "mean", "95 %", "max");
     }
-    fmt::print("{} {:<50} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f}\n", w.frontier ? "*" : " ", w.name,
-               w.nanoseconds, w.error.mean, w.error.percentile95, w.error.maximum);
+    print("{} {:<50} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f}\n", w.frontier ? "*" : " ", w.name, w.nanoseconds,
+          w.error.mean, w.error.percentile95, w.error.maximum);
   }
-  if (!r.methods.empty()) fmt::print("\n* no other method is as fast and as accurate\n");
+  if (!r.methods.empty()) print("\n* no other method is as fast and as accurate\n");
   std::string last;
   for (const BenchmarkAdvice& a : r.advice) {
     const std::string now = fmt::format("{}: {}", short_name(a.job), a.light);
-    if (now != last) fmt::print("\n{}\n", now);
+    if (now != last) print("\n{}\n", now);
     last = now;
-    fmt::print("  {}\n", a.sentence);
+    print("  {}\n", a.sentence);
   }
 }
 
@@ -114,26 +115,26 @@ void print_representations(const BenchmarkReport& r) {
     if (s.bounces != 1) continue;
     if (s.light != heading) {
       heading = s.light;
-      fmt::print("\nBounces 1 to 5 under {}: ns, CIEDE2000 mean (max)\n", s.light);
+      print("\nBounces 1 to 5 under {}: ns, CIEDE2000 mean (max)\n", s.light);
     }
-    fmt::print("  {:<28}", s.name);
+    print("  {:<28}", s.name);
     for (const RepresentationSpeed& t : r.representations) {
       if (t.light != s.light || t.name != s.name) continue;
-      fmt::print("  {:.3g} ns {:.3f} ({:.2f})", t.nanoseconds, t.error.mean, t.error.maximum);
+      print("  {:.3g} ns {:.3f} ({:.2f})", t.nanoseconds, t.error.mean, t.error.maximum);
     }
-    fmt::print("\n");
+    print("\n");
   }
 }
 
 int print_stress(const BenchmarkReport& r) {
   if (r.stress.empty()) return 0;
-  fmt::print("\nNumbers under stress\n  {:<42} {:>10} {:>10} {:>12}\n", "", "worst", "bound", "cases");
+  print("\nNumbers under stress\n  {:<42} {:>10} {:>10} {:>12}\n", "", "worst", "bound", "cases");
   int beyond = 0;
   for (const StressResult& s : r.stress) {
-    fmt::print("{} {:<42} {:>10.4g} {:>10.4g} {:>12} {}\n", s.beyond > 0 ? "!" : " ", s.operation, s.worst,
-               s.bound, s.cases, s.unit);
+    print("{} {:<42} {:>10.4g} {:>10.4g} {:>12} {}\n", s.beyond > 0 ? "!" : " ", s.operation, s.worst,
+          s.bound, s.cases, s.unit);
     if (s.beyond > 0) {
-      fmt::print("  {} BEYOND: {}\n", s.beyond, s.worst_case);
+      print("  {} BEYOND: {}\n", s.beyond, s.worst_case);
       ++beyond;
     }
   }
@@ -141,7 +142,7 @@ int print_stress(const BenchmarkReport& r) {
 }
 
 int cannot_write(const std::string& path, int error) {
-  fmt::print(stderr, "spectile: cannot write {}: {}\n", path, std::generic_category().message(error));
+  print_error("spectile: cannot write {}: {}\n", path, std::generic_category().message(error));
   return error == ENOENT || error == ENOTDIR || error == EISDIR ? kBadInput : kNoRoom;
 }
 
@@ -211,6 +212,8 @@ std::string make_plot(const BenchmarkReport& r) {
 }
 
 int run_bench(const BenchArguments& a) {
+  check_files({{a.report, "the report (--report)"}, {a.plot, "the plot (--plot)"}},
+              named_files(a.reflectances, kReflectancesRole));
   catch_signals();
   BenchmarkOptions options = make_options(a);
   for (const std::string& path : {a.report, a.plot}) {
@@ -223,7 +226,7 @@ int run_bench(const BenchArguments& a) {
   if (const int bad = write_file(a.plot, make_plot(report)); bad != kOk) return bad;
   int beyond = 0;
   if (a.json) {
-    fmt::print("{}\n", benchmark_to_json(report));
+    print_verbatim(benchmark_to_json(report) + "\n");
     for (const StressResult& s : report.stress) beyond += s.beyond > 0 ? 1 : 0;
   } else {
     print_machine(report);
@@ -232,11 +235,10 @@ int run_bench(const BenchArguments& a) {
     print_methods(report);
     print_representations(report);
     beyond = print_stress(report);
-    fmt::print("\n{:.0f} s\n", report.seconds);
+    print("\n{:.0f} s\n", report.seconds);
   }
   if (beyond == 0) return kOk;
-  fmt::print(stderr, "spectile: {} operation{} beyond the stated bound\n", beyond,
-             beyond == 1 ? " is" : "s are");
+  print_error("spectile: {} operation{} beyond the stated bound\n", beyond, beyond == 1 ? " is" : "s are");
   return kBadInput;
 }
 
@@ -245,10 +247,10 @@ int run_bench(const BenchArguments& a) {
 void add_bench(const Command& app, int& exit) {
   const auto [command, a] =
       add_subcommand(app, "bench", "Measure limits, throughput and error on this machine", run_bench, exit);
-  command.option("--report", a->report, "FILE", kFilesGroup,
-                 "Write the report as one page of HTML, with its plots");
-  command.option("--plot", a->plot, "FILE", kFilesGroup,
-                 "Write one plot as SVG: error against time of film samples");
+  command.output_file("--report", a->report, kFilesGroup,
+                      "Write the report as one page of HTML, with its plots");
+  command.output_file("--plot", a->plot, kFilesGroup,
+                      "Write one plot as SVG: error against time of film samples");
   command.option("--reflectances", a->reflectances, "FILE", kFilesGroup,
                  "Measured reflectances to evaluate errors on; the ColorChecker by default");
   constexpr const char* kMeasured = "Measurements";

@@ -8,7 +8,9 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/output/files.hpp"
 #include "src/cli/output/plot.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -86,6 +88,7 @@ int run_demo(const DemoArguments& a) {
   const std::string chart_path = (folder / "chart.exr").string();
   const std::string spectral_path = (folder / "chart-spectral.exr").string();
   const std::string back_path = (folder / "chart-back.exr").string();
+  check_files(named_files({chart_path, spectral_path, back_path}, "an image of the demo"), {});
 
   const ColorLanes chart = make_chart();
   const ProgressFunction go_on = [](const Progress&) { return !interrupted(); };
@@ -119,23 +122,22 @@ int run_demo(const DemoArguments& a) {
                 {"round_trip_mean", mean},
                 {"round_trip_max", maximum}});
   } else if (!a.common.quiet) {
-    fmt::print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
-    fmt::print(
+    print("{}: {} x {} RGB chart\n", chart_path, kWidth, kHeight);
+    print(
         "{}: upsampled to {} bands, {}, {}; kernels ({}) equal the reference in {} of {} samples, which is "
         "within {:.2g} of double\n",
         spectral_path, upsampled.bands, speed_text(upsampled.pixels(), upsampled.seconds),
         size_text(upsampled.bytes_written), verified.isa, verified.samples - verified.different_samples,
         verified.samples, verified.max_oracle_difference);
-    fmt::print("{}: projected back under D65, {}\n", back_path,
-               speed_text(projected.pixels(), projected.seconds));
-    fmt::print(
+    print("{}: projected back under D65, {}\n", back_path, speed_text(projected.pixels(), projected.seconds));
+    print(
         "round trip: linear sRGB differs by {:.4f} on average, {:.4f} at most: error of the method and of "
         "16-bit rounding\n",
         mean, maximum);
     const std::array<int, 2> at = {kWidth / 6 + 40, kHeight / 8};
     const ImageInfo info = take(inspect_image(spectral_path, at, a.common.threads));
-    fmt::print("the spectrum of pixel {},{}:\n", at[0], at[1]);
-    for (const std::string& line : plot(info.pixel, *info.bands)) fmt::print("{}\n", line);
+    print("the spectrum of pixel {},{}:\n", at[0], at[1]);
+    for (const std::string& line : plot(info.pixel, *info.bands)) print("{}\n", line);
   }
   return verified.ok() ? kOk : kBadInput;
 }

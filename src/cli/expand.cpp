@@ -14,8 +14,9 @@ struct ExpandArguments {
 int run_expand(const ExpandArguments& a) {
   ExpandImageOptions options;
   a.image.apply(options);
-  if (!a.bands.empty()) options.bands = take(find_bands(a.bands));
-  return run_jobs(a.image, settings_text(options), files_among({file_of_bands(a.bands)}), options.progress,
+  if (!a.bands.empty()) options.bands = take(bands_of(a.bands));
+  return run_jobs(a.image, {settings_text(options), files_among({{file_of_bands(a.bands), kBandsRole}})},
+                  options.progress,
                   [&](const Job& job) { return expand_image(job.input, job.output, options); });
 }
 

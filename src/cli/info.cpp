@@ -8,6 +8,7 @@
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/options/parse.hpp"
 #include "src/cli/output/plot.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -23,6 +24,17 @@ struct InfoArguments {
   std::string pixel;
   ChannelArguments channels;
 };
+
+/// The method of an image of coefficients; empty for other images.
+std::string method_of_coefficients(const ImageInfo& info) {
+  const bool coefficients = std::any_of(info.channels.begin(), info.channels.end(),
+                                        [](const ChannelInfo& c) { return c.name == "spectile.c0"; });
+  if (!coefficients) return {};
+  for (const auto& [name, text] : info.attributes) {
+    if (name == "spectileMethod") return text;
+  }
+  return "an unknown method";
+}
 
 nlohmann::json to_json(const std::string& path, const ImageInfo& info) {
   nlohmann::json out = {{"file", path},
@@ -69,50 +81,52 @@ nlohmann::json to_json(const std::string& path, const ImageInfo& info) {
     out["bands"] = info.bands->count();
     for (const Band& band : info.bands->list()) out["centres_nm"].push_back(band.centre_nm);
   }
+  if (const std::string method = method_of_coefficients(info); !method.empty())
+    out["coefficients_of"] = method;
   if (!info.pixel.empty()) out["pixel"] = info.pixel;
   return out;
 }
 
 void print_channel(const ChannelInfo& c) {
-  fmt::print("  {:<22} {:<5}  {:>11.5g} to {:<11.5g}", c.name, c.type, c.minimum, c.maximum);
-  if (c.nonfinite > 0) fmt::print("  {} non-finite", c.nonfinite);
-  if (c.negative > 0) fmt::print("  {} negative", c.negative);
-  fmt::print("\n");
+  print("  {:<22} {:<5}  {:>11.5g} to {:<11.5g}", c.name, c.type, c.minimum, c.maximum);
+  if (c.nonfinite > 0) print("  {} non-finite", c.nonfinite);
+  if (c.negative > 0) print("  {} negative", c.negative);
+  print("\n");
 }
 
 void print_part(std::size_t number, const PartInfo& part) {
-  fmt::print("part {}{}{}: {} x {}, {}{}, {}{}\n", number, part.name.empty() ? "" : " \"" + part.name + "\"",
-             part.view.empty() ? "" : ", view \"" + part.view + "\"", part.data_window.width(),
-             part.data_window.height(),
-             part.deep    ? "deep, "
-             : part.tiled ? "tiled, "
-                          : "",
-             part.compression, plural(part.channels, "channel"),
-             part.levels > 1 ? fmt::format(", {} mip levels", part.levels) : "");
+  print("part {}{}{}: {} x {}, {}{}, {}{}\n", number, part.name.empty() ? "" : " \"" + part.name + "\"",
+        part.view.empty() ? "" : ", view \"" + part.view + "\"", part.data_window.width(),
+        part.data_window.height(),
+        part.deep    ? "deep, "
+        : part.tiled ? "tiled, "
+                     : "",
+        part.compression, plural(part.channels, "channel"),
+        part.levels > 1 ? fmt::format(", {} mip levels", part.levels) : "");
 }
 
 void print_contents(const ImageInfo& info) {
   if (info.parts > 1) {
     for (std::size_t i = 0; i < info.part_list.size(); ++i) print_part(i, info.part_list[i]);
   } else if (info.part_list.front().levels > 1) {
-    fmt::print("{} mip levels\n", info.part_list.front().levels);
+    print("{} mip levels\n", info.part_list.front().levels);
   }
-  for (const std::string& text : info.contents) fmt::print("holds {}\n", text);
-  if (!info.dialect.empty()) fmt::print("dialect: {}\n", info.dialect);
-  if (!info.color_space.empty()) fmt::print("colour space: {}\n", info.color_space);
-  if (!info.alpha.empty()) fmt::print("alpha: channel {}\n", info.alpha);
-  for (const std::string& note : info.notes) fmt::print("note: {}\n", note);
+  for (const std::string& text : info.contents) print("holds {}\n", text);
+  if (!info.dialect.empty()) print("dialect: {}\n", info.dialect);
+  if (!info.color_space.empty()) print("colour space: {}\n", info.color_space);
+  if (!info.alpha.empty()) print("alpha: channel {}\n", info.alpha);
+  for (const std::string& note : info.notes) print("note: {}\n", note);
 }
 
 void print_info(const std::string& path, const ImageInfo& info) {
-  fmt::print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "",
-             info.compression, info.parts > 1 ? fmt::format(", {} parts", info.parts) : "");
+  print("{}: {} x {}, {}{}{}\n", path, info.width, info.height, info.tiled ? "tiled, " : "", info.compression,
+        info.parts > 1 ? fmt::format(", {} parts", info.parts) : "");
   print_contents(info);
   const auto d = corners(info.data_window);
   const auto w = corners(info.display_window);
   if (d != w) {
-    fmt::print("data window ({},{}) to ({},{}), display window ({},{}) to ({},{})\n", d[0], d[1], d[2], d[3],
-               w[0], w[1], w[2], w[3]);
+    print("data window ({},{}) to ({},{}), display window ({},{}) to ({},{})\n", d[0], d[1], d[2], d[3], w[0],
+          w[1], w[2], w[3]);
   }
   std::size_t plain = info.channels.size();
   if (info.bands) {
@@ -123,8 +137,11 @@ void print_info(const std::string& path, const ImageInfo& info) {
       minimum = std::min(minimum, info.channels[i].minimum);
       maximum = std::max(maximum, info.channels[i].maximum);
     }
-    fmt::print("{} bands of {}, {} ({}), {:.5g} to {:.5g}\n", info.bands->count(), to_string(*info.quantity),
-               info.bands->description(), info.channels[plain].type, minimum, maximum);
+    print("{} bands of {}, {} ({}), {:.5g} to {:.5g}\n", info.bands->count(), to_string(*info.quantity),
+          info.bands->description(), info.channels[plain].type, minimum, maximum);
+  }
+  if (const std::string method = method_of_coefficients(info); !method.empty()) {
+    print("coefficients of {}; spectile expand turns them into spectra\n", method);
   }
   std::size_t limbs = 0;
   for (std::size_t i = 0; i < plain; ++i) {
@@ -133,24 +150,24 @@ void print_info(const std::string& path, const ImageInfo& info) {
     if (!limb) print_channel(info.channels[i]);
   }
   if (limbs > 0) {
-    fmt::print("  a partial film: {} channels of exact sums; develop it with spectile film develop\n", limbs);
+    print("  a partial film: {} channels of exact sums; develop it with spectile film develop\n", limbs);
   }
-  fmt::print("{} non-finite and {} negative samples\n", info.nonfinite, info.negative);
+  print("{} non-finite and {} negative samples\n", info.nonfinite, info.negative);
   for (const auto& [name, text] : info.attributes) {
     // Long ones, as the bands of a coefficient image, are whole in --json.
     constexpr std::size_t kMaxLength = 160;
-    fmt::print("{}: {}{}\n", name, text.substr(0, kMaxLength), text.size() > kMaxLength ? " ..." : "");
+    print("{}: {}{}\n", name, text.substr(0, kMaxLength), text.size() > kMaxLength ? " ..." : "");
   }
 }
 
 void print_pixel(const ImageInfo& info, const std::string& where) {
-  fmt::print("pixel {}\n", where);
+  print("pixel {}\n", where);
   if (info.bands) {
-    for (const std::string& line : plot(info.pixel, *info.bands)) fmt::print("{}\n", line);
+    for (const std::string& line : plot(info.pixel, *info.bands)) print("{}\n", line);
     return;
   }
   for (std::size_t i = 0; i < info.pixel.size(); ++i) {
-    fmt::print("  {:<22} {:.7g}\n", info.channels[i].name, info.pixel[i]);
+    print("  {:<22} {:.7g}\n", info.channels[i].name, info.pixel[i]);
   }
 }
 

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <set>
 #include <system_error>
 
 #include "src/cli/output/image_report.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -57,43 +57,71 @@ class Manifest {
 
 /// The jobs of this run.
 struct Batch {
+  std::vector<Job> all;        ///< of all shards
   std::vector<Job> jobs;       ///< of this shard
   std::size_t inputs = 0;      ///< of all shards
   std::optional<Shard> shard;  ///< none: all of them
+  bool into_folder = false;    ///< each under its own name
 };
 
-/// Makes the output folder. Throws: Stop.
-void make_folder(const std::string& path) {
-  std::error_code error;
+/// The folder of outputs, made for a run. It goes again, with those above it that were made, if nothing came
+/// into it.
+class OutputFolder {
+ public:
+  OutputFolder() = default;
+  ~OutputFolder() {
+    std::error_code error;
+    for (const fs::path& folder : made_) {
+      if (!fs::remove(folder, error) || error) return;  // it is not empty
+    }
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// `stays`: other processes may be about to write there. Throws: Stop.
+  void make(const std::string& path, bool stays) {
+    std::error_code error;
+    std::error_code ignored;
+    const fs::path whole = path.ends_with('/') ? fs::path(path).parent_path() : fs::path(path);
+    for (fs::path at = whole; !stays && !at.empty() && !fs::exists(at, ignored); at = at.parent_path()) {
+      made_.push_back(at);
+    }
+    fs::create_directories(path, error);
+    if (!error && fs::is_directory(path, ignored)) return;
+    const bool denied = error == std::errc::permission_denied || error == std::errc::no_space_on_device ||
+                        error == std::errc::read_only_file_system;
+    throw Stop(complain({denied ? ErrorCode::kNoPermission : ErrorCode::kBadArgument,
+                         fmt::format("{}: cannot be made a directory{}{}", path, error ? ": " : "",
+                                     error ? error.message() : "")}));
+  }
+
+ private:
+  std::vector<fs::path> made_;  // the innermost first
+};
+
+/// True if each input goes into a folder under its own name: one that is there, or a name that can become
+/// one. Throws: Stop.
+bool goes_into_folder(const std::string& output, std::size_t inputs) {
   std::error_code ignored;
-  fs::create_directories(path, error);
-  if (!error && fs::is_directory(path, ignored)) return;
-  const bool denied = error == std::errc::permission_denied || error == std::errc::no_space_on_device ||
-                      error == std::errc::read_only_file_system;
-  throw Stop(complain({denied ? ErrorCode::kNoPermission : ErrorCode::kBadArgument,
-                       fmt::format("{}: cannot be made a directory{}{}", path, error ? ": " : "",
-                                   error ? error.message() : "")}));
+  if (fs::is_directory(output, ignored) || output.ends_with('/')) return true;
+  check_image_name(output);
+  if (inputs > 1 && is_image_name(output)) {
+    throw Stop(
+        complain_usage(fmt::format("{}: {} inputs cannot go into one image; name a folder, such as {}/",
+                                   output, inputs, fs::path(output).replace_extension().string())));
+  }
+  return inputs > 1;
 }
 
-/// Pairs inputs with outputs: one file, or each into a folder under its own name. The folder is made where it
-/// does not exist and there are several inputs or the name ends in a slash. Throws: Stop.
-std::vector<Job> pair_outputs(const std::vector<std::string>& inputs, const std::string& output) {
-  std::error_code ignored;
-  bool directory = fs::is_directory(output, ignored);
-  if (!directory && (inputs.size() > 1 || output.ends_with('/'))) {
-    make_folder(output);
-    directory = true;
-  }
-  std::vector<Job> jobs;
-  std::set<std::string> taken;
-  for (const std::string& input : inputs) {
-    std::string target = directory ? (fs::path(output) / fs::path(input).filename()).string() : output;
-    if (!taken.insert(target).second) {
-      throw Stop(complain_usage(fmt::format("{}: two inputs would be written there", target)));
-    }
-    jobs.push_back({input, std::move(target)});
-  }
-  return jobs;
+/// Refuses the share of a Slurm task where each task may name an image of its own: all but the first would do
+/// nothing. Throws: Stop.
+void check_slurm_share(const Shard& shard, bool into_folder, std::size_t inputs) {
+  if (into_folder && inputs > 1) return;
+  throw Stop(complain_usage(
+      fmt::format("this is task {} of a Slurm array, whose tasks share the inputs out, but there is only one "
+                  "{}; give all inputs "
+                  "and a folder to every task, or --shard none where each task has an input of its own",
+                  shard.text(), inputs > 1 ? "output" : "input")));
 }
 
 /// Throws: Stop.
@@ -107,42 +135,34 @@ Batch plan_batch(const ImageCommand& command) {
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   out.inputs = all.size();
-  out.jobs = pair_outputs(all, command.output);
-  if (!out.shard) return out;
-  std::vector<Job> mine;
-  for (std::size_t i = out.shard->index; i < out.jobs.size(); i += out.shard->count)
-    mine.push_back(out.jobs[i]);
-  out.jobs = std::move(mine);
+  out.into_folder = goes_into_folder(command.output, all.size());
+  if (out.shard && command.batch.shard.empty()) check_slurm_share(*out.shard, out.into_folder, all.size());
+  for (const std::string& input : all) {
+    out.all.push_back({input, out.into_folder
+                                  ? (fs::path(command.output) / fs::path(input).filename()).string()
+                                  : command.output});
+  }
+  const Shard mine = out.shard.value_or(Shard());
+  for (std::size_t i = mine.index; i < out.all.size(); i += mine.count) out.jobs.push_back(out.all[i]);
   return out;
+}
+
+/// Refuses outputs and a manifest that would replace each other, an input of any shard, or another file that
+/// is read. Throws: Stop.
+void check_batch_files(const Batch& batch, const std::string& manifest, std::vector<NamedFile> read) {
+  std::vector<NamedFile> written = {{manifest, "the manifest (--manifest)"}};
+  for (const Job& job : batch.all) {
+    written.push_back({job.output, kOutputRole});
+    read.push_back({job.input, kInputRole});
+  }
+  check_files(written, read);
 }
 
 }  // namespace
 
-Result<void> check_output(const std::string& output, const std::vector<std::string>& dependencies) {
-  for (const std::string& file : dependencies) {
-    std::error_code error;
-    if (!fs::equivalent(file, output, error) || error) continue;
-    return Error{ErrorCode::kBadArgument,
-                 fmt::format("{}: the output is {}, which it is made from", output, file)};
-  }
-  return {};
-}
-
-std::vector<std::string> files_among(const std::vector<std::string>& names_or_files) {
-  std::vector<std::string> out;
-  for (const std::string& text : names_or_files) {
-    if (!text.empty() && !named_spectrum(text)) out.push_back(text);
-  }
-  return out;
-}
-
-std::string file_of_bands(const std::string& bands) {
-  return Bands::parse(bands) ? std::string() : bands;
-}
-
 void ImageCommand::add_files(const Command& command, const std::string& input_help) {
   command.positional("IN", inputs, input_help).required();
-  command.option("-o,--output", output, "PATH", kFilesGroup, "Output file, or folder for several inputs")
+  command.output_file("-o,--output", output, kFilesGroup, "Output file, or folder for several inputs", "PATH")
       .required();
 }
 
@@ -161,19 +181,23 @@ void ImageCommand::apply(ImageOptions& out) const {
   out.region = region_of(batch);
 }
 
-int run_jobs(const ImageCommand& command, const std::string& settings,
-             const std::vector<std::string>& dependencies, ProgressFunction& progress,
+int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction& progress,
              const Conversion& convert) {
+  const std::string& settings = shared.settings;
   const Batch batch = plan_batch(command);
+  check_batch_files(batch, command.batch.manifest, shared.dependencies);
+  OutputFolder folder;
+  if (batch.into_folder && !batch.jobs.empty()) folder.make(command.output, batch.shard.has_value());
   Manifest manifest;
   if (!command.batch.manifest.empty()) manifest.open(command.batch.manifest);
   const Common& common = command.common;
   int exit = kOk;
+  Notes notes;
   std::size_t skipped = 0;
   std::size_t converted = 0;
   catch_signals();
   if (batch.shard && common.shows_text()) {
-    fmt::print("shard {}: {} of {}\n", batch.shard->text(), batch.jobs.size(), plural(batch.inputs, "input"));
+    print("shard {}: {} of {}\n", batch.shard->text(), batch.jobs.size(), plural(batch.inputs, "input"));
   }
   const auto line = [&](const Job& job, const char* status) -> nlohmann::json {
     nlohmann::json out = {{"input", job.input},
@@ -185,11 +209,11 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
     return out;
   };
   for (const Job& job : batch.jobs) {
-    std::vector<std::string> files = dependencies;
-    files.push_back(job.input);
+    std::vector<std::string> files = {job.input};
+    for (const NamedFile& file : shared.dependencies) files.push_back(file.path);
     if (command.batch.update && up_to_date(job.output, files, settings)) {
       ++skipped;
-      if (common.shows_text()) fmt::print("{} -> {}: up to date\n", job.input, job.output);
+      if (common.shows_text()) print("{} -> {}: up to date\n", job.input, job.output);
       if (common.json) print_json({{"input", job.input}, {"output", job.output}, {"skipped", true}});
       nlohmann::json entry = line(job, "up-to-date");
       std::error_code error;
@@ -199,13 +223,12 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
       if (interrupted()) return kInterrupted;
       continue;
     }
-    auto report = [&]() -> Result<ImageReport> {
-      if (const auto good = check_output(job.output, dependencies); !good) return good.error();
-      progress = progress_bar(fs::path(job.input).filename().string(), !common.quiet);
-      auto result = convert(job);
-      progress = nullptr;  // clears the bar
-      return result;
-    }();
+    progress = progress_bar(fs::path(job.input).filename().string(), !common.quiet);
+    Result<ImageReport> report = convert(job);
+    progress = nullptr;  // clears the bar
+    if (!report) {
+      report = with_light(report.error(), shared.plan.empty() ? job.input : shared.plan, shared.light);
+    }
     if (!report) {
       exit = std::max(exit, complain(report.error()));
       if (common.json) {
@@ -221,7 +244,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
     if (common.json) {
       print_json(report_json(job.input, job.output, *report));
     } else if (!common.quiet) {
-      print_report(job.input, job.output, *report, common.stats);
+      print_report(job.input, job.output, *report, shared.colors, notes, common.stats);
     }
     nlohmann::json entry = line(job, "converted");
     entry["pixels"] = report->pixels();
@@ -232,8 +255,8 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
   }
   if (command.batch.update && common.shows_text()) {
     const std::size_t failed = batch.jobs.size() - converted - skipped;
-    fmt::print("{} converted, {} up to date{}\n", converted, skipped,
-               failed > 0 ? fmt::format(", {} failed", failed) : "");
+    print("{} converted, {} up to date{}\n", converted, skipped,
+          failed > 0 ? fmt::format(", {} failed", failed) : "");
   }
   return exit;
 }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "src/cli/options/batch_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/image_report.hpp"
 
 namespace spectile::cli {
 
@@ -14,15 +16,6 @@ struct Job {
   std::string input;
   std::string output;
 };
-
-/// Error if an output is one of the files that it depends on, which would be lost. Errors: kBadArgument.
-Result<void> check_output(const std::string& output, const std::vector<std::string>& dependencies);
-
-/// The subset of names of spectra or files that are files.
-std::vector<std::string> files_among(const std::vector<std::string>& names_or_files);
-
-/// The file that a text of bands names, as find_bands() takes it; empty where it holds numbers.
-std::string file_of_bands(const std::string& bands);
 
 /// Options of every subcommand that converts images.
 struct ImageCommand {
@@ -43,12 +36,19 @@ struct ImageCommand {
 /// Converts one job with the options.
 using Conversion = std::function<Result<ImageReport>(const Job&)>;
 
+/// The part of a conversion that all jobs share, beside their inputs.
+struct Shared {
+  std::string settings;                                ///< settings_text() of the options
+  std::vector<NamedFile> dependencies;                 ///< files that shape every output
+  std::optional<ColorHandling> colors = std::nullopt;  ///< of inputs that are RGB
+  std::string light = {};  ///< which a plan of bands must hold, as it was given; D65 for an empty text
+  std::string plan = {};   ///< the file of that plan; the input where none
+};
+
 /// Converts each job of this shard that needs it. A failed one does not stop the others. Prints reports, and
-/// adds to the manifest. `settings` and `dependencies` are what shapes every output beside its input: a text
-/// of options and files. `progress` is the progress function of the options that `convert` uses. Returns an
+/// adds to the manifest. `progress` is the progress function of the options that `convert` uses. Returns an
 /// exit code.
-int run_jobs(const ImageCommand& command, const std::string& settings,
-             const std::vector<std::string>& dependencies, ProgressFunction& progress,
+int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction& progress,
              const Conversion& convert);
 
 }  // namespace spectile::cli

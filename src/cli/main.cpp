@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
     exit = stop.exit;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    fmt::print(stderr, "spectile: cannot write to standard output\n");
+    print_error("spectile: cannot write to standard output\n");
     return kNoRoom;
   }
   return exit;
@@ -58,14 +58,14 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "spectile: {}\n", error.what());
+    spectile::cli::print_error("spectile: {}\n", error.what());
     return spectile::cli::kBadInput;
   } catch (const std::system_error& error) {
     // {fmt} throws this where standard output is full or closed.
-    fmt::print(stderr, "spectile: cannot write to standard output: {}\n", error.code().message());
+    spectile::cli::print_error("spectile: cannot write to standard output: {}\n", error.code().message());
     return spectile::cli::kNoRoom;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "spectile: {}\n", error.what());
+    spectile::cli::print_error("spectile: {}\n", error.what());
     return spectile::cli::kBadInput;
   }
 }

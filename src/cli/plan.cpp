@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "src/cli/commands.hpp"
-#include "src/cli/jobs.hpp"
 #include "src/cli/options/method_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
 
-constexpr const char* kName = "plan";
-constexpr Choice<BandSampling> kSamplings[] = {{"points", BandSampling::kPoints},
-                                               {"bands", BandSampling::kAverages}};
+constexpr Choice<BandSampling> kSamplings[] = {{"bands", BandSampling::kAverages},
+                                               {"points", BandSampling::kPoints}};
 
 struct PlanArguments {
   Common common;
@@ -28,8 +28,8 @@ struct PlanArguments {
   ChannelArguments channels;
   NonFinite nonfinite = NonFinite::kStop;
   int bounces = 1;
-  BandSampling sample = BandSampling::kPoints;
-  std::optional<std::size_t> bands;
+  BandSampling sample = BandSampling::kAverages;
+  std::optional<std::size_t> count;
   std::optional<double> max_error;
   Observer observer = Observer::kCie1931;
   int folds = PlannerOptions().folds;
@@ -39,7 +39,8 @@ struct PlanArguments {
 /// Input of the planner, and its description.
 struct Scene {
   PlannerOptions options;
-  std::string from;  ///< "24 reflectances and 128 colours of 1 texture"
+  std::string from;                ///< "24 reflectances and 128 colours of 1 texture"
+  std::vector<std::string> notes;  ///< of textures
 };
 
 /// Throws: Stop.
@@ -48,7 +49,7 @@ void add_lights(const PlanArguments& a, PlannerOptions& out) {
     NamedLight named = take(find_light(text));
     for (const NamedLight& other : out.lights) {
       if (other.name == named.name)
-        throw Stop(complain_usage(fmt::format("two illuminants are called {}", other.name), kName));
+        throw Stop(complain_usage(fmt::format("two illuminants are called {}", other.name)));
     }
     out.lights.push_back(std::move(named));
   }
@@ -83,7 +84,8 @@ std::vector<Spectrum> default_reflectances() {
 }
 
 /// Throws: Stop.
-void add_textures(const PlanArguments& a, std::vector<Spectrum>& out) {
+void add_textures(const PlanArguments& a, Scene& scene) {
+  std::vector<Spectrum>& out = scene.options.reflectances;
   MethodOptions options;
   options.threads = a.common.threads;
   options.channels = channel_choice(a.channels);
@@ -93,10 +95,12 @@ void add_textures(const PlanArguments& a, std::vector<Spectrum>& out) {
   for (const std::string& texture : a.textures) {
     options.progress =
         progress_bar(std::filesystem::path(texture).filename().string(), a.common.shows_text());
-    auto result = texture_reflectances(texture, a.colors, options);
+    std::vector<std::string> notes;
+    auto result = texture_reflectances(texture, a.colors, options, &notes);
     options.progress = nullptr;  // clears the bar
     const std::vector<Spectrum> colors = take(std::move(result));
     out.insert(out.end(), colors.begin(), colors.end());
+    scene.notes.insert(scene.notes.end(), notes.begin(), notes.end());
   }
 }
 
@@ -108,7 +112,7 @@ void add_reflectances(const PlanArguments& a, Scene& out) {
     all.insert(all.end(), some.begin(), some.end());
   }
   const std::size_t measured = all.size();
-  add_textures(a, all);
+  add_textures(a, out);
   if (a.reflectances.empty() && a.textures.empty()) {
     all = default_reflectances();
     out.from = "the ColorChecker and a grid of sRGB";
@@ -122,46 +126,49 @@ void add_reflectances(const PlanArguments& a, Scene& out) {
 }
 
 void print_errors(const ColorError& e) {
-  fmt::print(" {:>7.3f} {:>7.3f} {:>7.3f}", e.mean, e.percentile95, e.maximum);
+  print(" {:>7.3f} {:>7.3f} {:>7.3f}", e.mean, e.percentile95, e.maximum);
 }
 
 void print_report(const Plan& plan, const Scene& scene, double seconds, const std::string& output) {
-  fmt::print("{}: {} wavelengths, {:.1f} s, planned for {}\n", output, plan.count(), seconds, scene.from);
+  print("{}: {} wavelengths, {:.1f} s, planned for {}\n", output, plan.count(), seconds, scene.from);
   std::string list;
   for (const double nm : plan.wavelengths_nm) list += fmt::format(" {:.1f}", nm);
-  fmt::print(" {} nm\n", list);
+  print(" {} nm\n", list);
+  Notes().print(scene.notes);
   if (plan.report.errors.empty()) {
-    fmt::print("  no cross-validated error, as there was no cross-validation\n");
+    print("  no cross-validated error, as there was no cross-validation\n");
     return;
   }
-  fmt::print("  {:<40} {:>7} {:>7} {:>7}\n", "CIEDE2000, cross-validated", "mean", "95 %", "maximum");
+  print("  {:<40} {:>7} {:>7} {:>7}\n", "CIEDE2000, cross-validated", "mean", "95 %", "maximum");
   for (const CrossValidatedError& e : plan.report.errors) {
     const std::string bounces = plural(static_cast<std::uint64_t>(e.bounces), "bounce");
-    fmt::print("  {:<40}", fmt::format("under {}, {}", e.light, bounces));
+    print("  {:<40}", fmt::format("under {}, {}", e.light, bounces));
     print_errors(e.error);
-    fmt::print("\n");
+    print("\n");
     for (const EvenBandsError& even : plan.report.even_bands) {
       if (even.light != e.light || even.bounces != e.bounces) continue;
-      fmt::print("  {:<40}", "  even bands " + even.bands);
+      print("  {:<40}", "  even bands " + even.bands);
       print_errors(even.error);
-      fmt::print("\n");
+      print("\n");
     }
   }
 }
 
 int run_plan(const PlanArguments& a) {
   apply_common(a.common);
-  if (a.bands.has_value() == a.max_error.has_value())
-    return complain_usage("give either --bands or --max-error", kName);
-  for (const auto* const files : {&a.lights, &a.reflectances, &a.textures}) {
-    take(check_output(a.output, *files));
-  }
+  if (a.count.has_value() == a.max_error.has_value())
+    return complain_usage("give either --count or --max-error");
+  std::vector<NamedFile> read = named_files(a.lights, kIlluminantRole);
+  for (NamedFile& file : named_files(a.reflectances, kReflectancesRole)) read.push_back(std::move(file));
+  read = files_among(read);
+  for (NamedFile& file : named_files(a.textures, "a texture (--texture)")) read.push_back(std::move(file));
+  check_files({{a.output, kOutputRole}}, read);
   catch_signals();
   Scene scene;
   PlannerOptions& o = scene.options;
   o.bounces = a.bounces;
   o.sampling = a.sample;
-  o.bands = a.bands;
+  o.bands = a.count;
   o.max_error = a.max_error;
   o.observer = a.observer;
   o.folds = a.folds;
@@ -179,7 +186,9 @@ int run_plan(const PlanArguments& a) {
   if (interrupted()) return complain({ErrorCode::kCancelled, "stopped on request"});
   take(save_plan(*plan, a.output));
   if (a.common.json) {
-    fmt::print("{}\n", nlohmann::ordered_json::parse(plan_to_json(*plan)).dump());
+    auto json = nlohmann::ordered_json::parse(plan_to_json(*plan));
+    if (!scene.notes.empty()) json["notes"] = scene.notes;
+    print_verbatim(json.dump() + "\n");
   } else if (!a.common.quiet) {
     print_report(*plan, scene, seconds.count(), a.output);
   }
@@ -191,7 +200,7 @@ int run_plan(const PlanArguments& a) {
 void add_plan(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
       app, "plan", "Choose the few wavelengths or bands that a scene's colours need", run_plan, exit);
-  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Plan to write, as JSON").required();
+  command.output_file("-o,--output", a->output, kFilesGroup, "Plan to write, as JSON").required();
   command.option("--reflectances", a->reflectances, "FILE", kFilesGroup,
                  "Reflectances of the scene: files, or names of spectra; a general set by default");
   command.option("--texture", a->textures, "FILE", kFilesGroup,
@@ -210,19 +219,20 @@ void add_plan(const Command& app, int& exit) {
   command.option("--bounces", a->bounces, "N", kColorGroup, "Reflections that must keep their colour, 1 to 4")
       .range(1, 4)
       .show_default();
-  command.option("--bands", a->bands, "N", kBandsGroup, "Number of wavelengths, 3 to 64").range(3, 64);
+  command.option("--count", a->count, "N", kBandsGroup, "Number of bands, 3 to 64").range(3, 64);
+  // Its name until 0.1; elsewhere --bands is a list or a plan.
+  command.option("--bands", a->count, "N", kBandsGroup, "").range(3, 64).hidden();
   command.option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
                  "Instead: the smallest number that meets this maximum error");
   command.choice("--sample", a->sample, kSamplings, kBandsGroup,
-                 "points (values at wavelengths), or bands (averages, as upsample writes)");
+                 "bands (averages, as upsample writes), or points (values at wavelengths)");
   command
       .option("--folds", a->folds, "N", kBandsGroup,
               "Folds of the cross-validation; 0: none, which is quicker")
       .range(0, 1000)
       .show_default();
   add_common(command, a->common,
-             "spectile plan --illuminant D65 --texture wood.exr --bands 7 --sample bands -o plan.json\n" +
-                 kSpectrumHelp);
+             "spectile plan --illuminant D65 --texture wood.exr --count 7 -o plan.json\n" + kSpectrumHelp);
 }
 
 }  // namespace spectile::cli

@@ -29,9 +29,13 @@ int run_project(const ProjectArguments& a) {
   options.adaptation = a.adapt;
   options.quantity = a.quantity;
   options.channels = channel_choice(a.channels);
-  return run_jobs(a.image, settings_text(options), files_among({a.illuminant, a.channels.map}),
-                  options.progress,
-                  [&](const Job& job) { return project_image(job.input, job.output, options); });
+  return run_jobs(
+      a.image,
+      {settings_text(options),
+       files_among({{a.illuminant, kIlluminantRole}, {a.channels.map, "the channel map (--channels)"}}),
+       {},
+       a.illuminant},
+      options.progress, [&](const Job& job) { return project_image(job.input, job.output, options); });
 }
 
 }  // namespace

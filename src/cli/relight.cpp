@@ -28,8 +28,14 @@ int run_relight(const RelightArguments& a) {
   options.seen_by = a.observer;
   options.adaptation = a.adapt;
   options.mode = a.mode;
-  return run_jobs(a.image, settings_text(options),
-                  files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}),
+  std::vector<NamedFile> dependencies = files_among({{a.illuminant, kIlluminantRole}});
+  for (NamedFile& file : method_files(a.method)) dependencies.push_back(std::move(file));
+  // Which of both lights a plan lacks.
+  const bool lacks_white =
+      static_cast<bool>(Projector::reflective(options.bands, options.under.spectrum, a.observer));
+  return run_jobs(a.image,
+                  {settings_text(options), std::move(dependencies), color_handling(options),
+                   lacks_white ? a.method.white : a.illuminant, file_of_bands(a.method.bands)},
                   options.progress,
                   [&](const Job& job) { return relight_image(job.input, job.output, options); });
 }

@@ -11,6 +11,7 @@
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/options/parse.hpp"
 #include "src/cli/output/plot.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -46,8 +47,8 @@ int list_all(const SpectraArguments& a) {
   std::string last;
   for (const NamedSpectrumInfo& info : named_spectra()) {
     if (a.csv) {
-      fmt::print("{}{},\"{}\",\"{}\",\"{}\",{}\n", last.empty() ? "name,kind,about,source,alias\n" : "",
-                 info.name, info.kind, info.about, info.source, info.alias);
+      if (last.empty()) print("name,kind,about,source,alias\n");
+      print("{},\"{}\",\"{}\",\"{}\",{}\n", info.name, info.kind, info.about, info.source, info.alias);
     } else if (a.common.json) {
       print_json({{"name", info.name},
                   {"kind", info.kind},
@@ -55,16 +56,17 @@ int list_all(const SpectraArguments& a) {
                   {"source", info.source},
                   {"alias", info.alias}});
     } else if (!a.common.quiet) {
-      if (info.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", info.kind);
-      fmt::print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);
+      if (info.kind != last && !last.empty()) print("\n");
+      if (info.kind != last) print("{}\n", info.kind);
+      print("  {:<28} {}{}\n", info.name, info.about, info.alias.empty() ? "" : ", also " + info.alias);
     }
     last = info.kind;
   }
   if (!a.csv && !a.common.json && !a.common.quiet) {
-    fmt::print("\nformula\n");
-    fmt::print("  {:<28} {}\n", "blackbody:KELVIN", "thermal radiation, 1 at its maximum");
-    fmt::print("  {:<28} {}\n", "daylight:KELVIN", "CIE daylight, 4000 to 25000 K, 100 at 560 nm");
-    fmt::print("  {:<28} {}\n", "constant:VALUE", "the same at every wavelength");
+    print("\nformula\n");
+    print("  {:<28} {}\n", "blackbody:KELVIN", "thermal radiation, 1 at its maximum");
+    print("  {:<28} {}\n", "daylight:KELVIN", "CIE daylight, 4000 to 25000 K, 100 at 560 nm");
+    print("  {:<28} {}\n", "constant:VALUE", "the same at every wavelength");
   }
   return kOk;
 }
@@ -158,11 +160,11 @@ void print_shown_json(const Shown& s, const SpectraArguments& a) {
 }
 
 void print_csv(const Shown& s, const SpectraArguments& a) {
-  fmt::print("wavelength_nm,value\n");
-  for (const double nm : a.at) fmt::print("{},{}\n", nm, s.spectrum(nm));
+  print("wavelength_nm,value\n");
+  for (const double nm : a.at) print("{},{}\n", nm, s.spectrum(nm));
   if (!a.at.empty()) return;
   for (std::size_t i = 0; i < s.values.size(); ++i) {
-    fmt::print("{},{}\n", s.wavelengths_nm[i], s.values[i]);
+    print("{},{}\n", s.wavelengths_nm[i], s.values[i]);
   }
 }
 
@@ -174,25 +176,25 @@ void print_drawing(const Shown& s) {
     columns.push_back(s.spectrum.integral(first + i * width, first + (i + 1) * width) / width);
   }
   for (const std::string& line : plot_columns(columns, kRows, first, s.wavelengths_nm.back())) {
-    fmt::print("{}\n", line);
+    print("{}\n", line);
   }
 }
 
 void print_text(const Shown& s, const SpectraArguments& a) {
-  fmt::print("{}: {}, {}{}\n", s.name, s.kind, s.about, s.source.empty() ? "" : " (" + s.source + ")");
+  print("{}: {}, {}{}\n", s.name, s.kind, s.about, s.source.empty() ? "" : " (" + s.source + ")");
   if (!a.at.empty()) {
-    for (const double nm : a.at) fmt::print("  {:.10g} nm  {:.10g}\n", nm, s.spectrum(nm));
+    for (const double nm : a.at) print("  {:.10g} nm  {:.10g}\n", nm, s.spectrum(nm));
     return;
   }
   print_drawing(s);
   const Facts facts = facts_of(s);
-  fmt::print("{:.6g} to {:.6g} nm, {} {}\n", s.wavelengths_nm.front(), s.wavelengths_nm.back(),
-             s.values.size(), s.kind == "formula" ? "values drawn" : "samples");
-  fmt::print("maximum {:.6g} at {:.6g} nm, average over 400 to 700 nm {:.6g}\n", facts.maximum,
-             facts.maximum_at_nm, facts.average);
+  print("{:.6g} to {:.6g} nm, {} {}\n", s.wavelengths_nm.front(), s.wavelengths_nm.back(), s.values.size(),
+        s.kind == "formula" ? "values drawn" : "samples");
+  print("maximum {:.6g} at {:.6g} nm, average over 400 to 700 nm {:.6g}\n", facts.maximum,
+        facts.maximum_at_nm, facts.average);
   if (facts.xy) {
-    fmt::print("chromaticity {}x {:.4f}, y {:.4f} (2 degree observer)\n",
-               s.kind == "file" ? "as an illuminant " : "", (*facts.xy)[0], (*facts.xy)[1]);
+    print("chromaticity {}x {:.4f}, y {:.4f} (2 degree observer)\n",
+          s.kind == "file" ? "as an illuminant " : "", (*facts.xy)[0], (*facts.xy)[1]);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/method_options.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -21,10 +22,11 @@ int run_verify(const VerifyArguments& a) {
   options.threads = a.common.threads;
   apply_method_options(a.method, options);
   int exit = kOk;
+  Notes notes;
   for (const std::string& input : a.inputs) {
     const auto report = verify_image(input, options);
     if (!report) {
-      exit = std::max(exit, complain(report.error()));
+      exit = std::max(exit, complain(with_light(report.error(), a.method.bands, a.method.white)));
       continue;
     }
     if (!report->ok()) exit = std::max<int>(exit, kBadInput);
@@ -38,14 +40,16 @@ int run_verify(const VerifyArguments& a) {
                   {"max_kernel_difference", report->max_kernel_difference},
                   {"max_oracle_difference", report->max_oracle_difference},
                   {"oracle_bound", report->oracle_bound},
+                  {"notes", report->notes},
                   {"ok", report->ok()}});
     } else if (!a.common.quiet) {
-      fmt::print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,
-                 report->ok() ? "ok" : "DIFFERENT");
-      fmt::print("  {} kernels against reference: {} of {} samples differ, by {:.3g} at most\n", report->isa,
-                 report->different_samples, report->samples, report->max_kernel_difference);
-      fmt::print("  reference against double: relative difference {:.3g} at most, bound {:.3g}\n",
-                 report->max_oracle_difference, report->oracle_bound);
+      print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,
+            report->ok() ? "ok" : "DIFFERENT");
+      print("  {} kernels against reference: {} of {} samples differ, by {:.3g} at most\n", report->isa,
+            report->different_samples, report->samples, report->max_kernel_difference);
+      print("  reference against double: relative difference {:.3g} at most, bound {:.3g}\n",
+            report->max_oracle_difference, report->oracle_bound);
+      notes.print(report->notes);
     }
   }
   return exit;

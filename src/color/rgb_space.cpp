@@ -17,8 +17,7 @@ constexpr struct {
   Chromaticities chromaticities;
   bool relative_to_d65;
 } kSpaces[] = {
-    {"srgb", "linear sRGB", kRec709, false},
-    {"rec709", "linear Rec.709", kRec709, false},
+    {"lin_rec709", "linear Rec.709", kRec709, false},
     {"display-p3",
      "linear P3-D65",
      {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}},
@@ -33,6 +32,25 @@ constexpr struct {
     {"xyz", "CIE XYZ (D65)", {{1, 0}, {0, 1}, {0, 0}, {1.0 / 3.0, 1.0 / 3.0}}, true},
 };
 
+// Other names: those of the Color Interop Forum, and our old one. An empty space: an encoded one.
+constexpr struct {
+  std::string_view name;
+  std::string_view space;
+} kAliases[] = {
+    {"lin_srgb", "lin_rec709"},
+    {"rec709", "lin_rec709"},
+    {"lin_p3d65", "display-p3"},
+    {"lin_rec2020", "rec2020"},
+    {"lin_adobergb", "adobe-rgb"},
+    {"lin_ap1", "acescg"},
+    {"lin_ap0", "aces2065-1"},
+    {"lin_ciexyzd65", "xyz"},
+    {"srgb_texture", ""},
+    {"srgb_rec709", ""},
+    {"g22_rec709", ""},
+    {"g18_rec709", ""},
+};
+
 constexpr Matrix3 kBradford = {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296};
 constexpr Matrix3 kCat16 = {0.401288, 0.650173,  -0.051461, -0.250268, 1.204414,
                             0.045854, -0.002079, 0.048952,  0.953127};
@@ -43,6 +61,20 @@ Result<RgbSpace> rgb_space(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  // Linear to one half of the field and encoded to the other: the name stays, so that it can be said.
+  if (lower == "srgb") return RgbSpace{lower, kSpaces[0].description, kRec709, false};
+  for (const auto& alias : kAliases) {
+    if (alias.name != lower) continue;
+    if (alias.space.empty()) {
+      return make_error(
+          ErrorCode::kBadArgument,
+          "colour space \"{}\" is not linear, and encoded images are not read; convert the image to "
+          "linear Rec.709 first (lin_rec709)",
+          name);
+    }
+    lower = alias.space;
+    break;
+  }
   for (const auto& space : kSpaces) {
     if (space.name == lower) {
       return RgbSpace{std::string(space.name), space.description, space.chromaticities,

@@ -108,7 +108,7 @@ TEST_F(Outputs, TextReportSaysWhatWasFound) {
   EXPECT_EQ(outcome.err, "") << "no progress bar where stderr is no terminal";
   EXPECT_THAT(outcome.out, testing::HasSubstr("333 x 77"));
   EXPECT_THAT(outcome.out, testing::HasSubstr("60 bands"));
-  EXPECT_THAT(outcome.out, testing::HasSubstr("sRGB (assumed)"));
+  EXPECT_THAT(outcome.out, testing::HasSubstr("Rec.709 assumed"));
   EXPECT_THAT(outcome.out, testing::HasSubstr("above 1"));
 }
 

@@ -118,8 +118,8 @@ TEST_F(PlanCommand, AnErrorThatCannotBeMetIsSaidInOneLine) {
 
 TEST_F(PlanCommand, WrongUsageIsTwo) {
   expect_failure({"--bands", "8"}, 2, "--illuminant");
-  expect_failure({"--illuminant", "D65"}, 2, "--bands or --max-error");
-  expect_failure({"--illuminant", "D65", "--bands", "8", "--max-error", "1"}, 2, "--bands or --max-error");
+  expect_failure({"--illuminant", "D65"}, 2, "--count or --max-error");
+  expect_failure({"--illuminant", "D65", "--bands", "8", "--max-error", "1"}, 2, "--count or --max-error");
   expect_failure({"--illuminant", "D65", "--bands", "2"}, 2, "--bands");
   expect_failure({"--illuminant", "D66", "--bands", "8"}, 2, "D66");
   expect_failure({"--illuminant", "D65", "--illuminant", "d65", "--bands", "8"}, 2,

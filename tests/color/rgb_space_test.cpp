@@ -29,7 +29,7 @@ constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 TEST(RgbSpace, NamesAreKnownWhateverTheirCase) {
   const auto names = rgb_space_names();
-  EXPECT_THAT(names, testing::IsSupersetOf({"srgb", "rec709", "display-p3", "rec2020", "adobe-rgb", "acescg",
+  EXPECT_THAT(names, testing::IsSupersetOf({"lin_rec709", "display-p3", "rec2020", "adobe-rgb", "acescg",
                                             "aces2065-1", "xyz"}));
   for (const std::string& name : names) {
     std::string upper = name;
@@ -42,6 +42,32 @@ TEST(RgbSpace, NamesAreKnownWhateverTheirCase) {
   EXPECT_TRUE(chromaticities("srgb") == kRec709);
   EXPECT_TRUE(chromaticities("rec709") == kRec709);
   EXPECT_TRUE(RgbSpace().chromaticities == kRec709);
+}
+
+TEST(RgbSpace, LinearOnesHaveTheNamesOfTheColorInteropForumToo) {
+  for (const auto& [alias, name] : {std::pair{"lin_srgb", "lin_rec709"},
+                                    {"rec709", "lin_rec709"},
+                                    {"lin_p3d65", "display-p3"},
+                                    {"lin_rec2020", "rec2020"},
+                                    {"lin_adobergb", "adobe-rgb"},
+                                    {"lin_ap1", "acescg"},
+                                    {"lin_ap0", "aces2065-1"},
+                                    {"lin_ciexyzd65", "xyz"}}) {
+    const auto space = rgb_space(alias);
+    ASSERT_TRUE(space) << alias;
+    EXPECT_EQ(space->name, name);
+  }
+  // Its name stays, as it may mean the encoded space too.
+  EXPECT_EQ(rgb_space("sRGB")->name, "srgb");
+  EXPECT_EQ(rgb_space("srgb")->description, "linear Rec.709");
+}
+
+TEST(RgbSpace, EncodedOnesAreRefused) {
+  for (const char* name : {"srgb_texture", "srgb_rec709", "g22_rec709", "g18_rec709"}) {
+    const auto space = rgb_space(name);
+    ASSERT_EQ(code_of(space), code(ErrorCode::kBadArgument)) << name;
+    EXPECT_THAT(space.error().message, testing::HasSubstr("is not linear"));
+  }
 }
 
 TEST(RgbSpace, UnknownNamesAreErrorsThatListTheKnownOnes) {

@@ -39,6 +39,7 @@ BROKEN_LINES = [
     ("umbrella", "include/spectile/color/new.hpp", "#pragma once"),
     ("prints", "src/film/add.cpp", "void f() { std::exit(1); }"),
     ("prints", "src/film/add.cpp", 'void f() { std::cerr << "x"; }'),
+    ("prints", "src/cli/info.cpp", 'void f() { fmt::print("x"); }'),
     ("prints", "bench/report/html.cpp", 'void f() { fmt::print("x"); }'),
     ("lines", "src/film/add.cpp", "\n" * floor_plan.MAX_LINES),
 ]

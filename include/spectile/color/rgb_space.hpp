@@ -23,18 +23,21 @@ inline constexpr Chromaticities kRec709 = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.
 
 /// A linear RGB space.
 struct RgbSpace {
-  std::string name = "srgb";
-  std::string description = "linear sRGB (assumed)";
+  std::string name = "lin_rec709";
+  std::string description = "linear Rec.709 (assumed)";
   Chromaticities chromaticities = kRec709;
   bool relative_to_d65 = false;  ///< the values are meant under D65, whatever RGB 1, 1, 1 is
 };
 
-/// A linear RGB space by name, whatever its case: srgb (or rec709), display-p3, rec2020, adobe-rgb, acescg,
-/// aces2065-1, and xyz: CIE XYZ under D65. Errors: kUnknownName, listing the names. Source: IEC 61966-2-1,
-/// ITU-R BT.709-6 and BT.2020-2, SMPTE EG 432-1, Adobe RGB (1998), SMPTE ST 2065-1, ACES S-2014-004.
+/// A linear RGB space by name, whatever its case: lin_rec709 (also lin_srgb, rec709), display-p3 (lin_p3d65),
+/// rec2020 (lin_rec2020), adobe-rgb (lin_adobergb), acescg (lin_ap1), aces2065-1 (lin_ap0), and xyz
+/// (lin_ciexyzd65): CIE XYZ under D65. "srgb", which may mean the encoded space too, is linear Rec.709 under
+/// that name. Errors: kUnknownName, listing the names; kBadArgument for encoded spaces such as srgb_texture.
+/// Source: IEC 61966-2-1, ITU-R BT.709-6 and BT.2020-2, SMPTE EG 432-1, Adobe RGB (1998), SMPTE ST 2065-1,
+/// ACES S-2014-004; Color Interop Forum, Color Space Encodings for Texture Assets and CG Rendering, 2024.
 Result<RgbSpace> rgb_space(std::string_view name);
 
-/// Names that rgb_space() knows.
+/// The first name of each space that rgb_space() knows.
 std::vector<std::string> rgb_space_names();
 
 /// XYZ of a chromaticity with Y = 1.

@@ -183,6 +183,10 @@ struct SkipStats {
   double core_seconds_saved = 0;
 };
 
+/// The note of a report on an RGB image that names no colour space.
+inline constexpr const char* kAssumedSpaceNote =
+    "linear Rec.709 assumed, as the file names no colour space; --input-space states another";
+
 /// Report of a conversion.
 struct ImageReport {
   int width = 0;
@@ -317,6 +321,7 @@ struct VerifyReport {
   double max_kernel_difference = 0;     ///< absolute
   double max_oracle_difference = 0;  ///< reference against double, over the pixel's largest possible sample
   double oracle_bound = 0;           ///< maximum of that
+  std::vector<std::string> notes;    ///< as in ImageReport
   bool ok() const { return different_samples == 0 && max_oracle_difference <= oracle_bound; }
 };
 

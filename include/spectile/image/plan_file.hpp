@@ -18,10 +18,10 @@ namespace spectile {
 /// Numbers come back to the bit. Lines are indented, and end in a line break, where it is not to be one line.
 std::string plan_to_json(const Plan& plan, bool one_line = false);
 
-/// Reads the text of plan_to_json(); unknown keys are ignored, "promise", the cross-validated errors, may be missing.
-/// Errors: kBadFile, naming `source`, for what is no JSON, and for a plan that cannot be: lists of different
-/// lengths, wavelengths that do not ascend or are not from 100 to 10000 nm, numbers that are not finite, no
-/// light, a light by an unknown name without a spectrum, two lights of one name.
+/// Reads the text of plan_to_json(); unknown keys are ignored, "promise", the cross-validated errors, may be
+/// missing. Errors: kBadFile, naming `source`, for what is no JSON, and for a plan that cannot be: lists of
+/// different lengths, wavelengths that do not ascend or are not from 100 to 10000 nm, numbers that are not
+/// finite, no light, a light by an unknown name without a spectrum, two lights of one name.
 Result<Plan> parse_plan(std::string_view json, const std::string& source);
 
 /// The same from a file. Errors: kNoPermission too.
@@ -36,8 +36,10 @@ Result<Bands> find_bands(const std::string& text);
 Result<void> save_plan(const Plan& plan, const std::string& path);
 
 /// Reflectances of a texture's colours: at most `most` representative ones, each upsampled by the options'
-/// method over 360 to 830 nm. Deterministic. Errors: those of upsample_image().
+/// method over 360 to 830 nm. Deterministic. `notes`, if given, becomes what a report on the image would
+/// note. Errors: those of upsample_image().
 Result<std::vector<Spectrum>> texture_reflectances(const std::string& path, std::size_t most,
-                                                   const MethodOptions& options = {});
+                                                   const MethodOptions& options = {},
+                                                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace spectile

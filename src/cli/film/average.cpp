@@ -7,6 +7,8 @@
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/options/parse.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -35,11 +37,10 @@ nlohmann::json to_json(const AverageArguments& a, const AverageOptions& options,
 }
 
 void print_report(const AverageArguments& a, const ImageReport& r) {
-  fmt::print("{} -> {}: {} x {}, {}, {}, {:.2f} s\n", plural(a.inputs.size(), "image"), a.output, r.width,
-             r.height, size_text(r.bytes_written), speed_text(r.pixels() * a.inputs.size(), r.seconds),
-             r.seconds);
+  print("{} -> {}: {} x {}, {}, {}, {:.2f} s\n", plural(a.inputs.size(), "image"), a.output, r.width,
+        r.height, size_text(r.bytes_written), speed_text(r.pixels() * a.inputs.size(), r.seconds), r.seconds);
   if (r.nonfinite_pixels > 0) {
-    fmt::print("  {} with non-finite samples, which were left out\n", plural(r.nonfinite_pixels, "pixel"));
+    print("  {} with non-finite samples, which were left out\n", plural(r.nonfinite_pixels, "pixel"));
   }
   print_clamped(r.clamped_pixels, "pixel");
 }
@@ -50,6 +51,8 @@ int run_average(const AverageArguments& a) {
   apply_write_options(a.write, a.common, options);
   if (a.write.pixel) options.stored = options.pixel;
   if (a.weights) options.weights = take(parse_weights(*a.weights));
+  check_image_name(a.output);
+  check_files({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
   catch_signals();
   options.progress = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
   const auto report = average_images(a.inputs, a.output, options);
@@ -74,7 +77,7 @@ void add_film_average(const Command& film, int& exit) {
   const auto [command, a] = add_subcommand(
       film, "average", "Average renders of one frame exactly, in any order", run_average, exit);
   command.positional("IN", a->inputs, "OpenEXR images with the same windows and channels").required();
-  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write").required();
+  command.output_file("-o,--output", a->output, kFilesGroup, "Image to write").required();
   command.option("--weights", a->weights, "W,W...", kFilesGroup,
                  "Weight of each image, such as 64,64,128; equal by default");
   add_nonfinite_option(command, a->write.nonfinite, "the sample is left out");

@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "src/cli/commands.hpp"
-#include "src/cli/jobs.hpp"
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -44,7 +45,8 @@ int run_develop(const DevelopArguments& a) {
   apply_common(a.common);
   ImageOptions options;
   apply_write_options(a.write, a.common, options);
-  take(check_output(a.output, {a.input}));
+  check_image_name(a.output);
+  check_files({{a.output, kOutputRole}}, {{a.input, kInputRole}});
   catch_signals();
   const LoadedFilm loaded = take(load_film(a.input, a.common.threads));
   std::size_t sensor = 0;
@@ -72,9 +74,9 @@ int run_develop(const DevelopArguments& a) {
                 {"bytes_written", report->bytes_written},
                 {"seconds", report->seconds}});
   } else if (!a.common.quiet) {
-    fmt::print("{} -> {}: {} x {}, {} of {} samples, {}, {:.2f} s\n", a.input, a.output, report->width,
-               report->height, name_of(kLayers, a.to), stats.accepted, size_text(report->bytes_written),
-               report->seconds);
+    print("{} -> {}: {} x {}, {} of {} samples, {}, {:.2f} s\n", a.input, a.output, report->width,
+          report->height, name_of(kLayers, a.to), stats.accepted, size_text(report->bytes_written),
+          report->seconds);
     print_clamped(report->clamped_pixels, "value");
   }
   return kOk;
@@ -86,13 +88,13 @@ void add_film_develop(const Command& film, int& exit) {
   const auto [command, a] =
       add_subcommand(film, "develop", "Develop a partial film into an image", run_develop, exit);
   command.positional("IN", a->input, "Partial film").required();
-  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Image to write").required();
+  command.output_file("-o,--output", a->output, kFilesGroup, "Image to write").required();
   command.choice("--to", a->to, kLayers, kColorGroup,
                  "srgb, xyz, luminance, sensor, spectral, weight, count or variance");
   command.option("--sensor", a->sensor, "NAME", kColorGroup,
                  "Sensor to develop, where the film holds several");
   add_format_options(command, a->write, "half");
-  add_common(command, a->common, "spectile film develop all.exr --to xyz --pixel float -o image.exr");
+  add_common(command, a->common, "spectile film develop all.exr --to xyz --depth float -o image.exr");
 }
 
 }  // namespace spectile::cli

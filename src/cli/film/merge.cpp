@@ -6,6 +6,8 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
@@ -35,6 +37,8 @@ int run_merge(const MergeArguments& a) {
     if (seen.insert(identity(input)).second) continue;
     return complain_usage(fmt::format("{} is named twice, and its samples would count twice", input));
   }
+  check_image_name(a.output);
+  check_files({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
   catch_signals();
   LoadedFilm all = take(load_film(a.inputs[0], a.common.threads));
   for (std::size_t i = 1; i < a.inputs.size(); ++i) {
@@ -58,8 +62,8 @@ int run_merge(const MergeArguments& a) {
                 {"bytes_written", saved.bytes_written},
                 {"seconds", saved.seconds}});
   } else if (!a.common.quiet) {
-    fmt::print("{} -> {}: {} samples, {}\n", plural(a.inputs.size(), "film"), a.output, stats.accepted,
-               size_text(saved.bytes_written));
+    print("{} -> {}: {} samples, {}\n", plural(a.inputs.size(), "film"), a.output, stats.accepted,
+          size_text(saved.bytes_written));
   }
   return kOk;
 }
@@ -70,7 +74,7 @@ void add_film_merge(const Command& film, int& exit) {
   const auto [command, a] =
       add_subcommand(film, "merge", "Merge partial films; the order does not matter", run_merge, exit);
   command.positional("IN", a->inputs, "Partial films").required();
-  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write").required();
+  command.output_file("-o,--output", a->output, kFilesGroup, "Partial film to write").required();
   add_film_compression_option(command, a->compression);
   add_common(command, a->common, "spectile film merge a.exr b.exr -o all.exr");
 }

@@ -8,12 +8,13 @@
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/options/parse.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
 
-constexpr const char* kName = "film simulate";
 constexpr Choice<WavelengthSampling> kSamplings[] = {{"visible", WavelengthSampling::kVisible},
                                                      {"uniform", WavelengthSampling::kUniform}};
 constexpr Choice<FilmInput> kInputs[] = {{"wavelengths", FilmInput::kWavelengths},
@@ -56,18 +57,18 @@ FilmOptions film_options(const SimulateArguments& a) {
   o.height = a.size[1];
   if (!a.crop.empty()) {
     const auto c = parse_integers<int>(a.crop, ',', 4);
-    if (!c) throw Stop(complain_usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop), kName));
+    if (!c) throw Stop(complain_usage(fmt::format("--crop \"{}\" is not X0,Y0,X1,Y1", a.crop)));
     o.crop = PixelWindow{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
   }
-  o.filter = take(PixelFilter::parse(a.filter), kName);
+  o.filter = take_usage(PixelFilter::parse(a.filter));
   o.placement = a.splat ? SamplePlacement::kSplat : SamplePlacement::kOnePixel;
   // Importance-sampling a filter with lobes below 0 makes weights below 0.
   o.negative_weights = !a.splat && o.filter.has_negative_lobes();
   o.input = a.input;
-  if (a.bands) o.bands = take(find_bands(*a.bands), kName);
+  if (a.bands) o.bands = take_usage(bands_of(*a.bands));
   o.spectral = a.spectral;
   o.xyz = a.observer;
-  for (const std::string& name : a.sensors) o.sensors.push_back({name, take(Sensor::named(name), kName)});
+  for (const std::string& name : a.sensors) o.sensors.push_back({name, take_usage(Sensor::named(name))});
   o.statistics = a.statistics;
   if (a.maximum) o.maximum_component = *a.maximum;
   o.range = a.range;
@@ -163,29 +164,36 @@ void report(const SimulateArguments& a, const Run& run, const SceneError& error,
                        {"seconds", seconds}});
   }
   if (a.common.quiet) return;
-  fmt::print("{} -> {}: {} samples{}, {}, {:.1f} s\n", a.scene, a.output, stats.accepted,
-             continued > 0 ? fmt::format(" (continued from step {})", continued) : "",
-             size_text(saved.bytes_written), seconds);
-  fmt::print("  error of luminance against the exact values: {:.3g} root mean square, of a mean of {:.3g}\n",
-             error.rms_luminance, error.mean_luminance);
-  fmt::print("  {} of {} tiles touched, {} bytes a pixel\n", stats.touched_tiles, stats.tiles,
-             stats.bytes_per_pixel);
-  if (stats.rejected.total() > 0) fmt::print("  {} samples rejected\n", stats.rejected.total());
+  print("{} -> {}: {} samples{}, {}, {:.1f} s\n", a.scene, a.output, stats.accepted,
+        continued > 0 ? fmt::format(" (continued from step {})", continued) : "",
+        size_text(saved.bytes_written), seconds);
+  print("  error of luminance against the exact values: {:.3g} root mean square, of a mean of {:.3g}\n",
+        error.rms_luminance, error.mean_luminance);
+  print("  {} of {} tiles touched, {} bytes a pixel\n", stats.touched_tiles, stats.tiles,
+        stats.bytes_per_pixel);
+  if (stats.rejected.total() > 0) print("  {} samples rejected\n", stats.rejected.total());
 }
 
 int run_simulate(const SimulateArguments& a) {
   apply_common(a.common);
+  check_image_name(a.output);
+  check_image_name(a.reference);
+  check_image_name(a.checkpoint);
+  check_files({{a.output, kOutputRole},
+               {a.checkpoint, "the checkpoint (--checkpoint)"},
+               {a.reference, "the reference (--reference)"}},
+              {{file_of_bands(a.bands.value_or("")), kBandsRole}});
   const auto start = std::chrono::steady_clock::now();
   const FilmOptions o = film_options(a);
-  const ProceduralScene scene = take(ProceduralScene::named(a.scene), kName);
+  const ProceduralScene scene = take_usage(ProceduralScene::named(a.scene));
   const auto shard = parse_integers<std::uint64_t>(a.shard, '/', 2);
   if (!shard || (*shard)[0] >= (*shard)[1]) {
-    return complain_usage(fmt::format("--shard \"{}\" is not I/N with I from 0 to N - 1", a.shard), kName);
+    return complain_usage(fmt::format("--shard \"{}\" is not I/N with I from 0 to N - 1", a.shard));
   }
   ImageOptions options;
   options.threads = a.common.threads;
   options.pixel = SampleType::kFloat;
-  options.compression = take(Compression::parse(a.compression), kName);
+  options.compression = take_usage(Compression::parse(a.compression));
   const SceneSampling s = {.seed = a.seed,
                            .samples_per_pixel = a.samples,
                            .shard = (*shard)[0],
@@ -196,7 +204,7 @@ int run_simulate(const SimulateArguments& a) {
   const std::string text = run_text(a, s);
   auto started = start_or_continue(a, o, text);
   const bool usage = !started && started.error().code == ErrorCode::kBadArgument;
-  Run state = usage ? take(std::move(started), kName) : take(std::move(started));
+  Run state = usage ? take_usage(std::move(started)) : take(std::move(started));
   const std::uint64_t continued = state.done;
   draw(a, scene, s, text, options, state);
   const FilmFileReport saved = take(save_film(state.film, a.output, {}, options));
@@ -217,11 +225,11 @@ void add_film_simulate(const Command& film, int& exit) {
   const auto [command, a] =
       add_subcommand(film, "simulate", "Sample a scene whose exact values are known, into a partial film",
                      run_simulate, exit);
-  command.option("-o,--output", a->output, "FILE", kFilesGroup, "Partial film to write").required();
-  command.option("--reference,--truth", a->reference, "FILE", kFilesGroup,
-                 "Write the exact XYZ too, as an image");
-  command.option("--checkpoint", a->checkpoint, "FILE", kFilesGroup,
-                 "Save the film here regularly, and continue from it if it exists");
+  command.output_file("-o,--output", a->output, kFilesGroup, "Partial film to write").required();
+  command.output_file("--reference,--truth", a->reference, kFilesGroup,
+                      "Write the exact XYZ too, as an image");
+  command.output_file("--checkpoint", a->checkpoint, kFilesGroup,
+                      "Save the film here regularly, and continue from it if it exists");
   command.option("--every", a->every, "SECONDS", kFilesGroup, "Interval of checkpoints")
       .not_negative()
       .show_default();

@@ -41,8 +41,8 @@ void add_batch_options(const Command& command, BatchOptions& options) {
   command.flag("-u,--update", options.update, kManyGroup, "Pass over outputs that are up to date");
   command.option("--shard", options.shard, "I/N", kManyGroup,
                  "Convert the I-th of N shards, from 0; the task's in a Slurm array; none: all");
-  command.option("--manifest", options.manifest, "FILE", kManyGroup,
-                 "Append one line of JSON per input to this file");
+  command.output_file("--manifest", options.manifest, kManyGroup,
+                      "Append one line of JSON per input to this file");
 }
 
 std::optional<PixelWindow> region_of(const BatchOptions& options) {

@@ -4,12 +4,81 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 
+#include "src/cli/options/nearest.hpp"
 #include "src/cli/output/messages.hpp"
 
 namespace spectile::cli {
+namespace {
+
+/// "film merge"; empty for the tool itself.
+std::string path_of(const CLI::App& app) {
+  const CLI::App* const parent = app.get_parent();
+  if (parent == nullptr) return {};
+  const std::string above = path_of(*parent);
+  return above.empty() ? app.get_name() : above + " " + app.get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> out;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
+    for (const std::string& name : option->get_lnames()) out.push_back("--" + name);
+  }
+  return out;
+}
+
+/// The command that arguments name, and the first argument that it does not know.
+struct Diagnosis {
+  std::string command;
+  std::string unknown = {};  ///< a sentence; empty where all are known
+  std::string hidden = {};   ///< the first option whose name CLI11 leaves out of its errors
+};
+
+Diagnosis diagnose(const CLI::App& root, int argc, const char* const* argv) {
+  const CLI::App* app = &root;
+  Diagnosis out;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    const bool is_long = word.starts_with("--");
+    if (is_long ||
+        (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0)) {
+      const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+      const CLI::Option* const option = app->get_option_no_throw(name);
+      if (option == nullptr) {
+        return {path_of(*app),
+                fmt::format("unknown option {}{}", name, suggestion(name, option_names(*app)))};
+      }
+      if (option->get_group().empty() && out.hidden.empty()) out.hidden = name;
+      // Its values may look like anything.
+      if (name == word) i += option->get_items_expected_min();
+      continue;
+    }
+    std::vector<std::string> names;
+    const CLI::App* found = nullptr;
+    for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(sub->get_name());
+      if (sub->get_name() == word) found = sub;
+    }
+    if (names.empty()) continue;
+    if (found == nullptr) {
+      const std::string meant = suggestion(word, names);
+      return {path_of(*app),
+              fmt::format("unknown command \"{}\"{}", word,
+                          meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant)};
+    }
+    app = found;
+  }
+  out.command = path_of(*app);
+  return out;
+}
+
+}  // namespace
 
 Option Option::required() const {
   option_->required();
@@ -31,6 +100,11 @@ Option Option::group(const std::string& name) const {
   return *this;
 }
 
+Option Option::hidden() const {
+  option_->group("");
+  return *this;
+}
+
 Option Option::range(double low, double high) const {
   option_->check([low, high](const std::string& text) {
     double value = 0;
@@ -46,9 +120,8 @@ Option Option::not_negative() const {
   return *this;
 }
 
-Option Option::one_of(const std::vector<std::string>& names, Case letters) const {
-  option_->check(letters == Case::kIgnored ? CLI::IsMember(names, CLI::ignore_case).description("")
-                                           : CLI::IsMember(names).description(""));
+Option Option::one_of(const std::vector<std::string>& names) const {
+  option_->check(CLI::IsMember(names).description(""));
   return *this;
 }
 
@@ -116,6 +189,15 @@ template Option Command::positional<std::optional<std::string>>(const char*, std
 template Option Command::positional<std::vector<std::string>>(const char*, std::vector<std::string>&,
                                                               const std::string&, const char*) const;
 
+Option Command::output_file(const char* flags, std::string& target, const char* group,
+                            const std::string& text, const char* type) const {
+  return option(flags, target, type, group, text).check([](const std::string& name) -> std::string {
+    if (name.empty()) return "the name of a file is empty";
+    if (name == "-") return "- would be standard output, where no file is written; name a file";
+    return {};
+  });
+}
+
 Option Command::flag(const char* flags, bool& target, const char* group, const std::string& text) const {
   return Option(app_->add_flag(flags, target, text)->group(group));
 }
@@ -138,7 +220,10 @@ void Command::require_subcommand() const {
 }
 
 void Command::on_run(std::function<void()> run) const {
-  app_->callback(std::move(run));
+  app_->callback([app = app_, run = std::move(run)] {
+    set_running_command(path_of(*app));
+    run();
+  });
 }
 
 void Command::footer(const std::string& text) const {
@@ -167,9 +252,12 @@ std::optional<int> CommandLine::run(int argc, char** argv) const {
     return {};
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app_->exit(error);  // help or version
-    std::string text = error.what();
+    const Diagnosis found = diagnose(*app_, argc, argv);
+    set_running_command(found.command);
+    std::string text = found.unknown.empty() ? error.what() : found.unknown;
+    if (text.starts_with(": ")) text = found.hidden + text;
     for (char& c : text) c = c == '\n' ? ' ' : c;
-    return complain_usage(text + " (see spectile --help)");
+    return complain_usage(text);
   }
 }
 

@@ -29,12 +29,13 @@ class Option {
   Option show_default() const;
   Option type(const std::string& name) const;
   Option group(const std::string& name) const;
+  /// Accepted, but not in the help: an old name.
+  Option hidden() const;
   /// Numbers from `low` to `high`.
   Option range(double low, double high) const;
   /// Numbers that are not negative.
   Option not_negative() const;
-  enum class Case { kSensitive, kIgnored };
-  Option one_of(const std::vector<std::string>& names, Case letters = Case::kSensitive) const;
+  Option one_of(const std::vector<std::string>& names) const;
   /// Exactly two values, which the help calls `text`.
   Option pair(const std::string& text) const;
   /// Several values in one argument.
@@ -64,6 +65,10 @@ class Command {
   template <class T>
   Option option(const char* flags, T& target, const char* type, const char* group,
                 const std::string& text) const;
+
+  /// A file to write. Its name is neither empty nor "-".
+  Option output_file(const char* flags, std::string& target, const char* group, const std::string& text,
+                     const char* type = "FILE") const;
 
   Option flag(const char* flags, bool& target, const char* group, const std::string& text) const;
 

@@ -1,6 +1,10 @@
 // Options that several subcommands share: execution, files written, observer, adaptation, colour target.
 #include "src/cli/options/common_options.hpp"
 
+#include <fmt/format.h>
+
+#include "src/cli/options/parse.hpp"
+
 namespace spectile::cli {
 
 void add_common(const Command& command, Common& common, const std::string& example) {
@@ -42,9 +46,11 @@ ChannelChoice channel_choice(const ChannelArguments& channels) {
 
 void add_format_options(const Command& command, WriteOptions& options, const std::string& pixel_default) {
   command
-      .choice("--pixel", options.pixel, kSampleTypes, kFormatGroup,
+      .choice("--depth", options.pixel, kSampleTypes, kFormatGroup,
               "Sample type: half or float; " + pixel_default + " by default")
       .type("TYPE");
+  // Its name until 0.1; elsewhere --pixel is a position.
+  command.choice("--pixel", options.pixel, kSampleTypes, kFormatGroup, "").hidden();
   command.option("--compression", options.compression, "NAME[:LEVEL]", kFormatGroup,
                  "none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab; " + Compression{}.description() +
                      " by default");
@@ -83,6 +89,29 @@ void apply_write_options(const WriteOptions& options, const Common& common, Imag
   if (options.pixel) out.pixel = *options.pixel;
   out.nonfinite = options.nonfinite;
   if (!options.compression.empty()) out.compression = take(Compression::parse(options.compression));
+}
+
+Result<Bands> bands_of(const std::string& text) {
+  const auto count = parse_count(text);
+  if (!count) return find_bands(text);
+  // As many bands over 400 to 700 nm, or a little less where the step would not be a short number.
+  constexpr std::size_t kRangeNm = 300;
+  std::string example = "400:700:5";
+  if (*count > 0 && *count <= kRangeNm) {
+    const std::size_t whole = kRangeNm / *count;
+    const bool exact = kRangeNm * 100 % *count == 0;
+    example = exact
+                  ? fmt::format("400:700:{:.4g}", static_cast<double>(kRangeNm) / static_cast<double>(*count))
+                  : fmt::format("400:{}:{}", 400 + whole * *count, whole);
+  }
+  constexpr std::size_t kMinPlanned = 3;
+  constexpr std::size_t kMaxPlanned = 64;
+  const bool planned = *count >= kMinPlanned && *count <= kMaxPlanned;
+  return Error{
+      ErrorCode::kBadArgument,
+      fmt::format("--bands {} is a wavelength alone; for {} give FIRST:LAST:STEP in nm, such as {}{}", text,
+                  plural(*count, "band"), example,
+                  planned ? fmt::format(", or a plan (spectile plan --count {})", *count) : "")};
 }
 
 Option add_observer_option(const Command& command, Observer& observer, const char* flag) {

@@ -70,7 +70,7 @@ struct WriteOptions {
   bool mipmap = false;
 };
 
-/// Adds --pixel and --compression.
+/// Adds --depth, with its old name --pixel, and --compression.
 void add_format_options(const Command& command, WriteOptions& options, const std::string& pixel_default);
 /// Adds --nonfinite.
 void add_nonfinite_option(const Command& command, NonFinite& nonfinite, const std::string& zero);
@@ -81,6 +81,10 @@ void add_film_compression_option(const Command& command, std::string& compressio
 
 /// Fills `out`. Throws: Stop.
 void apply_write_options(const WriteOptions& options, const Common& common, ImageOptions& out);
+
+/// Bands of the option --bands: those of find_bands(). A number alone is an error that says how to ask for so
+/// many.
+Result<Bands> bands_of(const std::string& text);
 
 /// Adds an option of a standard observer.
 Option add_observer_option(const Command& command, Observer& observer, const char* flag = "--observer");

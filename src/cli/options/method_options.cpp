@@ -32,10 +32,8 @@ void add_method_option(const Command& command, std::string& method) {
 }
 
 void add_rgb_input_options(const Command& command, std::string& input_space, ChannelArguments& channels) {
-  command
-      .option("--input-space", input_space, "NAME", kColorGroup,
-              fmt::format("{}", fmt::join(rgb_space_names(), ", ")))
-      .one_of(rgb_space_names(), Option::Case::kIgnored);
+  command.option("--input-space", input_space, "NAME", kColorGroup,
+                 fmt::format("{}", fmt::join(rgb_space_names(), ", ")));
   add_channel_options(command, channels);
 }
 
@@ -64,7 +62,7 @@ void add_method_options(const Command& command, MethodArguments& a) {
 void apply_method_options(const MethodArguments& a, MethodOptions& out) {
   out.method = take(parse_method(a.method));
   out.quantity = a.quantity;
-  out.bands = take(find_bands(a.bands));
+  out.bands = take(bands_of(a.bands));
   // D65 by name is the default.
   if (!a.white.empty()) {
     out.light = take(find_light(a.white));
@@ -75,6 +73,19 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
   out.negative = a.negative;
   out.out_of_gamut = a.out_of_gamut;
   out.channels = channel_choice(a.channels);
+}
+
+std::vector<NamedFile> method_files(const MethodArguments& a) {
+  return files_among({{a.white, "the reference white (--white)"}, {file_of_bands(a.bands), kBandsRole}});
+}
+
+ColorHandling color_handling(const MethodOptions& options) {
+  ColorHandling out;
+  out.negative = options.negative;
+  out.out_of_gamut = options.out_of_gamut.value_or(
+      options.negative == NegativeInput::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip);
+  out.clips_above_one = options.method == Method::kSigmoid && out.out_of_gamut == GamutPolicy::kClip;
+  return out;
 }
 
 }  // namespace spectile::cli

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "src/cli/options/common_options.hpp"
+#include "src/cli/output/files.hpp"
+#include "src/cli/output/image_report.hpp"
 
 namespace spectile::cli {
 
@@ -30,5 +32,10 @@ std::optional<RgbSpace> space_of(const std::string& name);
 
 /// Fills `out`. Throws: Stop.
 void apply_method_options(const MethodArguments& a, MethodOptions& out);
+
+/// The files that they name.
+std::vector<NamedFile> method_files(const MethodArguments& a);
+/// The handling of colours that the options lead to.
+ColorHandling color_handling(const MethodOptions& options);
 
 }  // namespace spectile::cli

@@ -4,18 +4,49 @@
 #include <fmt/format.h>
 
 #include "src/cli/output/messages.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 namespace {
 
-void print_skipped(const SkipStats& s) {
-  fmt::print("  skipped: {} masked, {} black, {} in blocks of one colour\n", plural(s.masked_pixels, "pixel"),
-             s.black_pixels, s.constant_pixels);
-  fmt::print("  {} of {} reused\n", s.chunks_reused, plural(s.chunks, "chunk"));
-  if (s.colors_looked_up > 0) {
-    fmt::print("  {} looked up, {} of them solved\n", plural(s.colors_looked_up, "colour"), s.colors_solved);
+const char* done_to_negative(NegativeInput negative) {
+  switch (negative) {
+    case NegativeInput::kClip:
+      return "clipped to 0; --negative gamut or keep changes that";
+    case NegativeInput::kKeep:
+      return "kept as they are; --negative gamut or clip changes that";
+    default:
+      return "treated as colours out of gamut; --negative clip or keep changes that";
   }
-  fmt::print("  about {:.2f} s of one core saved\n", s.core_seconds_saved);
+}
+
+void print_skipped(const SkipStats& s) {
+  print("  skipped: {} masked, {} black, {} in blocks of one colour\n", plural(s.masked_pixels, "pixel"),
+        s.black_pixels, s.constant_pixels);
+  print("  {} of {} reused\n", s.chunks_reused, plural(s.chunks, "chunk"));
+  if (s.colors_looked_up > 0) {
+    print("  {} looked up, {} of them solved\n", plural(s.colors_looked_up, "colour"), s.colors_solved);
+  }
+  print("  about {:.2f} s of one core saved\n", s.core_seconds_saved);
+}
+
+void print_colors(const ImageReport& r, const ColorHandling& colors) {
+  if (r.negative_pixels > 0) {
+    print("  {} with a component below 0, {}\n", plural(r.negative_pixels, "pixel"),
+          done_to_negative(colors.negative));
+  }
+  if (r.over_one_pixels > 0 && r.quantity == Quantity::kReflectance) {
+    print("  {} above 1, which no real reflectance is: {}\n", plural(r.over_one_pixels, "pixel"),
+          colors.clips_above_one
+              ? "clipped to the method's gamut (--out-of-gamut); --quantity unbounded keeps them"
+              : "kept, so that spectra exceed 1; --quantity unbounded says that they may");
+  }
+  if (r.out_of_gamut_pixels > 0) {
+    print("  {} outside the method's gamut, {}\n", plural(r.out_of_gamut_pixels, "pixel"),
+          colors.out_of_gamut == GamutPolicy::kKeep
+              ? "kept as they are; --out-of-gamut clip moves them into it"
+              : "clipped towards the grey of their luminance; --out-of-gamut keep or error changes that");
+  }
 }
 
 }  // namespace
@@ -48,23 +79,15 @@ nlohmann::json report_json(const std::string& input, const std::string& output, 
           {"notes", r.notes}};
 }
 
-void print_report(const std::string& input, const std::string& output, const ImageReport& r, bool stats) {
-  fmt::print("{} -> {}: {} x {}, {}, {}, {}, {:.2f} s\n", input, output, r.width, r.height,
-             plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds),
-             r.seconds);
-  if (!r.color_space.empty()) fmt::print("  input space: {}\n", r.color_space);
-  if (r.nonfinite_pixels > 0) fmt::print("  {} made black\n", plural(r.nonfinite_pixels, "non-finite pixel"));
-  if (r.negative_pixels > 0) {
-    fmt::print("  {} with a component below 0\n", plural(r.negative_pixels, "pixel"));
-  }
-  if (r.over_one_pixels > 0 && r.quantity == Quantity::kReflectance && !r.color_space.empty()) {
-    fmt::print("  {} above 1, which no real reflectance is\n", plural(r.over_one_pixels, "pixel"));
-  }
-  if (r.out_of_gamut_pixels > 0) {
-    fmt::print("  {} outside the method's gamut\n", plural(r.out_of_gamut_pixels, "pixel"));
-  }
+void print_report(const std::string& input, const std::string& output, const ImageReport& r,
+                  const std::optional<ColorHandling>& colors, Notes& notes, bool stats) {
+  print("{} -> {}: {} x {}, {}, {}, {}, {:.2f} s\n", input, output, r.width, r.height,
+        plural(r.bands, "band"), size_text(r.bytes_written), speed_text(r.pixels(), r.seconds), r.seconds);
+  if (!r.color_space.empty()) print("  input space: {}\n", r.color_space);
+  if (r.nonfinite_pixels > 0) print("  {} made black\n", plural(r.nonfinite_pixels, "non-finite pixel"));
+  if (colors) print_colors(r, *colors);
   print_clamped(r.clamped_pixels, "pixel");
-  for (const std::string& note : r.notes) fmt::print("  {}\n", note);
+  notes.print(r.notes);
   if (stats) print_skipped(r.skipped);
 }
 

@@ -6,18 +6,36 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <spectile/image/image.hpp>
 #include <system_error>
+#include <utility>
+
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
+namespace {
+
+std::string running_command;
+
+}  // namespace
+
+void set_running_command(std::string name) {
+  running_command = std::move(name);
+}
 
 int complain(const Error& error) {
-  fmt::print(stderr, "spectile: {}\n", error.message);
+  switch (error.code) {
+    case ErrorCode::kBadArgument:
+    case ErrorCode::kUnknownName:
+      return complain_usage(error.message);
+    default:
+      break;
+  }
+  print_error("spectile: {}\n", error.message);
   switch (error.code) {
     case ErrorCode::kNoSpace:
     case ErrorCode::kNoPermission:
       return kNoRoom;
-    case ErrorCode::kBadArgument:
-    case ErrorCode::kUnknownName:
     case ErrorCode::kUnavailable:
       return kBadUsage;
     case ErrorCode::kCancelled:
@@ -27,23 +45,56 @@ int complain(const Error& error) {
   }
 }
 
-int complain_usage(const std::string& message, const std::string& command) {
-  fmt::print(stderr, "spectile: {}{}\n", message,
-             command.empty() ? "" : fmt::format(" (see spectile {} --help)", command));
+int complain_usage(const std::string& message) {
+  print_error("spectile: {} (see spectile {}--help)\n", message,
+              running_command.empty() ? "" : running_command + " ");
   return kBadUsage;
 }
 
 int complain_write(const std::string& path, int error) {
-  fmt::print(stderr, "spectile: {}: cannot write: {}\n", path, std::generic_category().message(error));
+  print_error("spectile: {}: cannot write: {}\n", path, std::generic_category().message(error));
   return error == EACCES || error == EPERM || error == EROFS || error == ENOSPC ? kNoRoom : kBadUsage;
 }
 
+Error with_light(Error error, const std::string& plan, const std::string& light) {
+  const std::string unnamed = "the plan of these bands holds no emission values for this light";
+  if (!error.message.starts_with(unnamed)) return error;
+  const std::string name = light.empty() ? "D65" : light;
+  error.message = fmt::format(
+      "{}: its plan holds no emission values for the light {}{}; add --illuminant {} to spectile plan", plan,
+      name, error.message.substr(unnamed.size()), name);
+  return error;
+}
+
 std::string json_line(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  // Its library leaves U+007F to U+009F, which terminals obey. They are in texts only.
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+    if (byte == 0x7F) {
+      out += "\\u007f";
+    } else if (byte == 0xC2 && next < 0xA0) {
+      out += fmt::format("\\u{:04x}", next);
+      ++i;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
 }
 
 void print_json(const nlohmann::json& json) {
-  fmt::print("{}\n", json_line(json));
+  print_verbatim(json_line(json) + "\n");
+}
+
+void Notes::print(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    const bool assumed = note == kAssumedSpaceNote;
+    if (!assumed || !space_assumed_) cli::print("  {}\n", note);
+    space_assumed_ = space_assumed_ || assumed;
+  }
 }
 
 std::string plural(std::uint64_t n, const char* noun) {
@@ -64,8 +115,7 @@ std::string size_text(std::uint64_t bytes) {
 
 void print_clamped(std::uint64_t count, const char* noun) {
   if (count == 0) return;
-  fmt::print("  {} beyond the range of half, clamped to 65504; --pixel float keeps them\n",
-             plural(count, noun));
+  print("  {} beyond the range of half, clamped to 65504; --depth float keeps them\n", plural(count, noun));
 }
 
 }  // namespace spectile::cli

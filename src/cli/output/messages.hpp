@@ -7,6 +7,7 @@
 #include <spectile/result.hpp>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace spectile::cli {
 
@@ -19,12 +20,19 @@ enum Exit : int {
   kInterrupted = 130,  ///< stopped by a signal, as shells count it
 };
 
+/// The command that runs, such as "film merge": wrong usage names it, as its help explains what is right.
+void set_running_command(std::string name);
+
 /// Prints one line to stderr and returns the error's exit code.
 int complain(const Error& error);
-/// Prints one line to stderr and returns kBadUsage. Names the command whose help explains it, if any.
-int complain_usage(const std::string& message, const std::string& command = {});
+/// Prints one line to stderr, with the command whose help explains it, and returns kBadUsage.
+int complain_usage(const std::string& message);
 /// Prints one line to stderr for a file that cannot be written. `error` is an errno.
 int complain_write(const std::string& path, int error);
+
+/// The error of a plan that does not hold a light with the names of both, and a remedy: the library has only
+/// the light's numbers. Other errors stay as they are. `light`: as it was given, D65 for an empty text.
+Error with_light(Error error, const std::string& plan, const std::string& light);
 
 /// Ends the command with an exit code; the error has been printed.
 struct Stop : std::exception {
@@ -40,14 +48,23 @@ T take(Result<T> result) {
 }
 /// The same, where any error is wrong usage of the command.
 template <class T>
-T take(Result<T> result, const std::string& command) {
-  if (!result) throw Stop(complain_usage(result.error().message, command));
+T take_usage(Result<T> result) {
+  if (!result) throw Stop(complain_usage(result.error().message));
   return *std::move(result);
 }
 
-/// One line of JSON. Bytes that are not UTF-8 are replaced.
+/// One line of JSON without control characters. Bytes that are not UTF-8 are replaced.
 std::string json_line(const nlohmann::json& json);
 void print_json(const nlohmann::json& json);
+
+/// Prints the notes of a run's reports, a guess that may be the same for all of its images once only.
+class Notes {
+ public:
+  void print(const std::vector<std::string>& notes);
+
+ private:
+  bool space_assumed_ = false;
+};
 
 /// "1 pixel", "2 pixels".
 std::string plural(std::uint64_t n, const char* noun);

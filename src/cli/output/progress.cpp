@@ -26,7 +26,7 @@ class ProgressBar {
   ProgressBar(std::string label, bool enabled)
       : label_(std::move(label)), shown_(enabled && ::isatty(STDERR_FILENO) != 0) {}
   ~ProgressBar() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) print_error("\r\033[K");
   }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -41,9 +41,9 @@ class ProgressBar {
     const double done = static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
     constexpr int kWidth = 30;
     const int full = static_cast<int>(done * kWidth);
-    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {:.0f} s left", label_, "", full, "",
-               kWidth - full, 100 * done, speed_text(progress.pixels_done, seconds),
-               seconds / done * (1 - done));
+    print_error("\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {:.0f} s left", label_, "", full, "",
+                kWidth - full, 100 * done, speed_text(progress.pixels_done, seconds),
+                seconds / done * (1 - done));
     static_cast<void>(std::fflush(stderr));
     return true;
   }

@@ -126,11 +126,14 @@ std::vector<Cell> merged(std::vector<Cell> cells, std::size_t most) {
   return out;
 }
 
-Result<Census> census_of(const std::string& path, const Upsampler& upsampler, const MethodOptions& options) {
+Result<Census> census_of(const std::string& path, const Upsampler& upsampler, const MethodOptions& options,
+                         std::vector<std::string>* notes) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  SPECTILE_ASSIGN(auto opened, io::RgbSource::open(path, options.channels,
-                                                   tiles::thread_count(options.threads), options.region));
+  SPECTILE_ASSIGN(auto opened,
+                  io::RgbSource::open(path, options.channels, tiles::thread_count(options.threads),
+                                      options.region, options.input_space));
   io::RgbSource& source = *opened;
+  if (notes != nullptr) *notes = source.notes();
   const io::ColorStage stage(source, upsampler, options, *kernels);
   SPECTILE_ASSIGN(auto line, io::ColorLine::create(source.width()));
   Census census;
@@ -156,7 +159,7 @@ Result<Census> census_of(const std::string& path, const Upsampler& upsampler, co
 }
 
 Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size_t most,
-                                              const MethodOptions& wanted) {
+                                              const MethodOptions& wanted, std::vector<std::string>* notes) {
   if (most == 0) return make_error(ErrorCode::kBadArgument, "{}: no colour can stand for all", path);
   if (wanted.quantity == Quantity::kIlluminant) {
     return make_error(ErrorCode::kBadArgument, "{}: colours of light are no reflectances", path);
@@ -165,7 +168,7 @@ Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size
   options.quantity = Quantity::kReflectance;
   SPECTILE_ASSIGN(options.bands, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
   SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
-  SPECTILE_ASSIGN(const auto census, census_of(path, upsampler, options));
+  SPECTILE_ASSIGN(const auto census, census_of(path, upsampler, options, notes));
   std::vector<Cell> cells = merged(census.cells(), most);
   std::ranges::stable_sort(cells, std::greater<>{}, &Cell::count);
   std::vector<Spectrum> out;
@@ -180,8 +183,10 @@ Result<std::vector<Spectrum>> reflectances_of(const std::string& path, std::size
 }  // namespace
 
 Result<std::vector<Spectrum>> texture_reflectances(const std::string& path, std::size_t most,
-                                                   const MethodOptions& options) {
-  return io::contained<std::vector<Spectrum>>(path, [&] { return reflectances_of(path, most, options); });
+                                                   const MethodOptions& options,
+                                                   std::vector<std::string>* notes) {
+  return io::contained<std::vector<Spectrum>>(path,
+                                              [&] { return reflectances_of(path, most, options, notes); });
 }
 
 }  // namespace spectile

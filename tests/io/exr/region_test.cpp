@@ -101,6 +101,7 @@ TEST_P(Regions, HaveThePixelsOfTheWholeConversion) {
   Picture picture = rgb_picture(GetParam());
   write(in_, picture, GetParam());
   UpsampleImageOptions upsample;
+  upsample.input_space = RgbSpace();  // stated, so that there is nothing to note
   ASSERT_TRUE(upsample_image(in_, all_, upsample));
   for (const Region& region : regions()) {
     for (const int threads : {1, 3}) {
@@ -245,6 +246,7 @@ TEST_F(RegionTool, IsLimitedToTheDataWindowWithANote) {
   Picture picture = rgb_picture({"", 0, false, {10, 10}});
   test::write_scanlines(in_, picture);
   UpsampleImageOptions options;
+  options.input_space = RgbSpace();
   ASSERT_TRUE(upsample_image(in_, folder_ / "all.exr", options));
   options.region = window_of({-2147483647 - 1, 100, 2147483647, 2147483647});
   const auto report = upsample_image(in_, out_, options);

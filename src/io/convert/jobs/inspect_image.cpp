@@ -7,11 +7,11 @@
 #include <spectile/image/image.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/io/channels/color_channels.hpp"
+#include "src/io/channels/spectral_sets.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/channels/color_channels.hpp"
 #include "src/io/convert/sources/color_space.hpp"
-#include "src/io/channels/spectral_sets.hpp"
 #include "src/io/exr/attribute_texts.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/reference/half.hpp"

@@ -132,9 +132,10 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
   known.quantity = source->quantity();
   known.notes = source->notes();
   if (options.target == ColorTarget::kSrgb && projector.white_compensation() < 1) {
-    known.notes.push_back(fmt::format(
-        "the bands miss much of the visible range: {:.0f} % of the tint that this gives to white is taken out",
-        100 * projector.white_compensation()));
+    known.notes.push_back(
+        fmt::format("the bands miss much of the visible range: {:.0f} % of the tint that this gives to white "
+                    "is taken out",
+                    100 * projector.white_compensation()));
   }
   return io::run_image_job({job, output, std::move(spec), options,
                             io::at_nonfinite(input, options, source->offset()), std::move(known)});

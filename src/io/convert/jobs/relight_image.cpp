@@ -66,7 +66,8 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
                   Projector::reflective(options.bands, options.under.spectrum, options.seen_by));
   const Matrix3 matrix = io::color_matrix(projector, options.target, options.adaptation);
   SPECTILE_ASSIGN(const auto relighter, Relighter::create(upsampler, projector, matrix));
-  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.channels, setup.threads, options.region));
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.channels, setup.threads, options.region,
+                                                   options.input_space));
 
   RelightJob job(*source, relighter, options, setup.kernels);
   auto texts = io::method_attributes(upsampler, options, false);

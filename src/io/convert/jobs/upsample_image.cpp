@@ -223,7 +223,8 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
         "the spectra, as it is for {}; store spectra instead",
         to_string(options.method), to_string(Method::kMallett));
   }
-  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.channels, setup.threads, options.region));
+  SPECTILE_ASSIGN(auto source, io::RgbSource::open(input, options.channels, setup.threads, options.region,
+                                                   options.input_space));
 
   SPECTILE_ASSIGN(auto mask, io::PixelMask::open(options, *source, setup.threads));
   SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, upsampler.bands()));

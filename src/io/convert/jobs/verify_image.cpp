@@ -274,8 +274,11 @@ Result<VerifyReport> verify(const std::string& path, const MethodOptions& option
   const int threads = tiles::thread_count(options.threads);
   auto spectral = io::SpectralSource::open(path, options.channels, std::nullopt, threads, options.region);
   if (spectral) return verify_spectral(**spectral, options, *kernels);
-  SPECTILE_ASSIGN(auto rgb, io::RgbSource::open(path, options.channels, threads, options.region));
-  return verify_rgb(*rgb, options, *kernels);
+  SPECTILE_ASSIGN(auto rgb,
+                  io::RgbSource::open(path, options.channels, threads, options.region, options.input_space));
+  SPECTILE_ASSIGN(auto report, verify_rgb(*rgb, options, *kernels));
+  report.notes = rgb->notes();
+  return report;
 }
 
 }  // namespace

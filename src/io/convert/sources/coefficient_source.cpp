@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
 
 namespace spectile::io {
 namespace {

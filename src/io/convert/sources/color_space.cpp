@@ -2,6 +2,7 @@
 #include "src/io/convert/sources/color_space.hpp"
 
 #include <cmath>
+#include <spectile/image/image.hpp>
 #include <string_view>
 
 #include "src/base/errors.hpp"
@@ -14,9 +15,10 @@ constexpr struct {
   std::string_view id;
   std::string_view space;
 } kInteropSpaces[] = {
-    {"lin_rec709_scene", "rec709"},   {"lin_srgb_scene", "srgb"},          {"lin_p3d65_scene", "display-p3"},
-    {"lin_rec2020_scene", "rec2020"}, {"lin_adobergb_scene", "adobe-rgb"}, {"lin_ap0_scene", "aces2065-1"},
-    {"lin_ap1_scene", "acescg"},      {"lin_ciexyzd65_scene", "xyz"},
+    {"lin_rec709_scene", "lin_rec709"},  {"lin_srgb_scene", "lin_rec709"},
+    {"lin_p3d65_scene", "display-p3"},   {"lin_rec2020_scene", "rec2020"},
+    {"lin_adobergb_scene", "adobe-rgb"}, {"lin_ap0_scene", "aces2065-1"},
+    {"lin_ap1_scene", "acescg"},         {"lin_ciexyzd65_scene", "xyz"},
 };
 
 bool close(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -61,8 +63,20 @@ Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& pat
         red[0], red[1], green[0], green[1], blue[0], blue[1], white[0], white[1]);
   }
   const RgbSpace out{"", "chromaticities of the file", space, false};
-  if (is_srgb(out)) return RgbSpace{"rec709", "linear Rec.709 (chromaticities)", kRec709, false};
+  if (is_srgb(out)) return RgbSpace{"lin_rec709", "linear Rec.709 (chromaticities)", kRec709, false};
   return out;
+}
+
+Result<RgbSpace> input_space_of(const PartHeader& header, const std::string& path,
+                                const std::optional<RgbSpace>& stated, std::vector<std::string>& notes) {
+  if (stated) {
+    if (stated->name == "srgb")
+      notes.emplace_back("input space srgb is taken as linear Rec.709 (lin_rec709)");
+    return *stated;
+  }
+  const std::string id = header.text("colorInteropID").value_or("");
+  if ((id.empty() || id == "unknown") && !header.chromaticities()) notes.emplace_back(kAssumedSpaceNote);
+  return color_space_of(header, path);
 }
 
 bool is_srgb(const RgbSpace& space) {

@@ -5,20 +5,21 @@
 #include <cstring>
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/coefficient_source.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/convert/sources/coefficient_source.hpp"
 
 namespace spectile::io {
 
 Result<std::unique_ptr<RgbSource>> RgbSource::open(const std::string& path, const ChannelChoice& choice,
-                                                   int threads, const std::optional<PixelWindow>& region) {
+                                                   int threads, const std::optional<PixelWindow>& region,
+                                                   const std::optional<RgbSpace>& stated) {
   std::unique_ptr<RgbSource> source(new RgbSource);
   SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
   SPECTILE_TRY(source->choose(choice));
-  if (source->colors_.model == ColorModel::kXyz) {
+  if (source->colors_.model == ColorModel::kXyz && !stated) {
     SPECTILE_ASSIGN(source->space_, rgb_space("xyz"));
   } else {
-    SPECTILE_ASSIGN(source->space_, color_space_of(source->header(), path));
+    SPECTILE_ASSIGN(source->space_, input_space_of(source->header(), path, stated, source->notes_));
   }
   SPECTILE_TRY(source->choose_region(region));
   if (source->with_chroma_) {

@@ -18,10 +18,11 @@ namespace spectile::io {
 /// An open RGB image. Planes 0, 1, 2 of its strips are red, green, blue; the others pass through.
 class RgbSource : public ImageSource {
  public:
-  /// Finds the colour channels that the choice asks for. Errors: kBadFile, kNoPermission; those of
-  /// choose_colors() and RegionReader.
+  /// Finds the colour channels that the choice asks for. `stated`: the RGB space, whatever the file says.
+  /// Errors: kBadFile, kNoPermission; those of choose_colors() and RegionReader.
   static Result<std::unique_ptr<RgbSource>> open(const std::string& path, const ChannelChoice& choice,
-                                                 int threads, const std::optional<PixelWindow>& region = {});
+                                                 int threads, const std::optional<PixelWindow>& region = {},
+                                                 const std::optional<RgbSpace>& stated = {});
 
   const RgbSpace& color_space() const noexcept { return space_; }
   /// The plane of the colours' own alpha, where they have one.

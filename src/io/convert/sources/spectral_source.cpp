@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/coefficient_source.hpp"
 #include "src/io/channels/plan_attribute.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/convert/sources/coefficient_source.hpp"
 
 namespace spectile::io {
 

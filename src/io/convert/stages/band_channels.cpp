@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "src/base/errors.hpp"
-#include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/channels/plan_attribute.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/convert/sources/method_attributes.hpp"
 
 namespace spectile::io {
 namespace {

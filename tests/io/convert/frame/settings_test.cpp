@@ -95,7 +95,7 @@ void add_method_options(Texts& texts, const Options& usual) {
   for (const std::string& name : rgb_space_names()) {
     Options options = usual;
     options.input_space = *rgb_space(name);
-    if (name != "rec709") texts.add(name, options);
+    texts.add(name, options);
   }
   for (const char* bands : {"400:700:10", "400:700:2.5", "380:780:5", "400,500,600", "400,500,601"}) {
     Options options = usual;

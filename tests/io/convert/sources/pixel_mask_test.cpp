@@ -18,6 +18,7 @@ class PixelMasks : public testing::Test {
   PixelMasks() : picture_(test::blank(100, 40, {-3, 5})) {
     test::add_rgb_noise(picture_, Imf::HALF);
     options_.bands = *Bands::uniform(400, 700, 25);
+    options_.input_space = RgbSpace();  // stated, so that notes are of masks only
   }
 
   /// True if every band is 0 at a pixel.
