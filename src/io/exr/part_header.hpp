@@ -48,6 +48,11 @@ constexpr SampleType readable_type(SampleType stored) {
   return stored == SampleType::kHalf ? SampleType::kHalf : SampleType::kFloat;
 }
 
+/// Names of the attributes in which a Cryptomatte layer says its name: "cryptomatte/KEY/name".
+/// Source: Friedman, Jones, Cryptomatte Specification 1.2.
+inline constexpr std::string_view kManifestStart = "cryptomatte/";
+inline constexpr std::string_view kManifestName = "/name";
+
 /// A channel as it is stored.
 struct StoredChannel {
   std::string name;
@@ -110,6 +115,11 @@ class PartHeader {
   std::vector<std::pair<std::string, std::string>> texts() const;
   /// True if there is an attribute of this name, whatever its type.
   bool has_attribute(const std::string& name) const;
+  /// An attribute of type float, double or int.
+  std::optional<double> number(const std::string& name) const;
+  /// Names of the channels whose samples name objects, so that no arithmetic makes sense of them: integers,
+  /// and the ranks of Cryptomatte layers, ids beside the coverage that belongs to each.
+  std::vector<std::string> object_ids() const;
   /// The attribute chromaticities.
   std::optional<Primaries> chromaticities() const;
 

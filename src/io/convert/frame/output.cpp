@@ -51,6 +51,7 @@ Result<ImageReport> run_image_job(ImageJob image) {
     return make_error(ErrorCode::kBadArgument, "{}: samples are written as half or float", image.output);
   }
   image.spec.compression = options.compression;
+  if (auto note = left_out_note(image.spec)) image.report.notes.push_back(*std::move(note));
   const std::size_t slots =
       slot_count(image.spec, image.spec.source->width(), tiles::thread_count(options.threads));
   SPECTILE_ASSIGN(const auto owner, ExrWriter::create(image.output, image.spec, slots));

@@ -123,8 +123,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
                                            settings_text(options));
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
-  spec.replaced.insert(spec.replaced.end(),
-                       {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
+  spec.change = io::PixelChange::kColor;
   ImageReport known;
   known.bands = source->bands().count();
   known.quantity = source->quantity();

@@ -75,7 +75,9 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   spec.replaced = io::method_attribute_names();
-  spec.replaced.insert(spec.replaced.end(), {"chromaticities", "colorInteropID", "spectileSeenUnder"});
+  spec.replaced.emplace_back("spectileSeenUnder");
+  spec.change = io::PixelChange::kColor;
+  spec.view = options.layer;
   ImageReport known;
   known.bands = options.bands.count();
   known.quantity = options.quantity;

@@ -234,6 +234,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   spec.replaced = io::spectral_attribute_names();
+  spec.view = options.layer;
   ImageReport known;
   known.bands = options.bands.count();
   known.quantity = options.quantity;
