@@ -1,0 +1,17 @@
+// Whether two images' samples mean the same, so that they have an average.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "src/io/exr/part_header.hpp"
+
+namespace spectile::io {
+
+/// What of the attributes that say what samples mean differs: colour space, exposure value, units, filters;
+/// as "its NAME is A, but that of FIRST is B". Nothing where nothing does. An attribute that is missing has
+/// its default, where there is one.
+std::optional<std::string> difference_of_meaning(const PartHeader& other, const PartHeader& first,
+                                                 const std::string& first_path);
+
+}  // namespace spectile::io
