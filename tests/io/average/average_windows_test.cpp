@@ -136,7 +136,8 @@ TEST_F(AverageWindows, CryptomatteIsTheFirstOnes) {
 TEST_F(AverageWindows, PartsOfTheSameNameAreAveraged) {
   const auto colour = [&](double value) { return part(10, 20, 69, 69, value); };
   const auto depth = [&](double value) {
-    test::Picture picture = test::blank(7, 5);
+    test::Picture picture = test::blank(7, 5, {12, 22});
+    picture.header.displayWindow() = {{10, 20}, {69, 69}};
     picture.add("Z", Imf::HALF, [=](int x, int y) { return value + x + y; });
     picture.header.compression() = Imf::PIZ_COMPRESSION;
     picture.header.insert("owner", Imf::StringAttribute("depth"));

@@ -70,6 +70,7 @@ Result<ImageReport> run_image_job(ImageJob image) {
   }
   SPECTILE_TRY(writer.commit());
   ImageReport report = std::move(image.report);
+  if (image.remark) image.remark(stats, report.notes);
   report.width = writer.size(0).width;
   report.height = writer.size(0).height;
   report.nonfinite_pixels = stats.nonfinite.count;

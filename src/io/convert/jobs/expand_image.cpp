@@ -174,6 +174,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
     made.light = NamedLight{io::light_name_of(source->header()), *upsampler.options().light};
   }
   auto texts = io::method_attributes(upsampler, made, false);
+  io::pass_alpha_attribute(texts, source->header());
   io::add_layout_attributes(texts, upsampler.quantity(), bands);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(bands), std::move(texts), options,
                                            settings_text(options));
