@@ -70,5 +70,19 @@ TEST_F(TilesTool, CoefficientsThatCannotBeAveragedHaveNone) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+/// Mip levels of an image of 2 x 200000 took 513 MB: a line of a level takes a whole block of lanes.
+TEST(TilesToolMemory, OfMipLevelsDoesNotGrowWithTheHeight) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer's memory is its own";
+  const test::TempFolder folder;
+  test::Picture picture = test::blank(2, 200000);
+  test::add_rgb_noise(picture, Imf::HALF);
+  test::write_scanlines(folder / "in.exr", picture);
+  const auto outcome =
+      run_tool({"upsample", folder / "in.exr", "-o", folder / "out.exr", "--mipmap", "--threads", "2",
+                "--compression", "none", "--method", "smits", "--bands", "400:700:50", "--quiet"});
+  ASSERT_EQ(outcome.exit, 0) << outcome;
+  EXPECT_LT(outcome.peak_mib, 256);
+}
+
 }  // namespace
 }  // namespace spectile

@@ -84,6 +84,12 @@ PartHeader PartHeader::with_data_window(const PixelWindow& window) const {
   return out;
 }
 
+PartHeader PartHeader::with_display_window(const PixelWindow& window) const {
+  PartHeader out = *this;
+  out.display_ = window;
+  return out;
+}
+
 int PartHeader::chunk_lines() const {
   // Tiles may be as high as the image.
   constexpr int kMaxLines = 4096;

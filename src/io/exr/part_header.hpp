@@ -93,8 +93,9 @@ class PartHeader {
   /// Of the data window.
   int width() const noexcept { return data_.width(); }
   int height() const noexcept { return data_.height(); }
-  /// The same header with another data window.
+  /// The same header with another data window, or another display window.
   PartHeader with_data_window(const PixelWindow& window) const;
+  PartHeader with_display_window(const PixelWindow& window) const;
 
   bool deep() const noexcept { return deep_; }
   /// None for scanlines.

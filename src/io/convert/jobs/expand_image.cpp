@@ -35,9 +35,7 @@ class ExpandJob : public io::FilteredJob {
         rows_(rows),
         options_(options),
         packer_(kernels, rows, options),
-        filter_(kernels, source.upsampler(), rows, packer_, options, false) {
-    padded_ = blocks_for(static_cast<std::size_t>(source.width())) * kLanesPerBlock;
-  }
+        filter_(kernels, source.upsampler(), rows, packer_, options, false) {}
 
   /// Output channels: what passes through, then the bands.
   std::vector<io::ChannelSpec> channels(const Bands& bands) const {
@@ -51,10 +49,11 @@ class ExpandJob : public io::FilteredJob {
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
+    padded_ = blocks_for(static_cast<std::size_t>(writer.width())) * kLanesPerBlock;
     for (std::size_t i = 0; i < slots; ++i) {
       SPECTILE_ASSIGN(auto coefficients, FloatBuffer::create(4 * padded_));
       SPECTILE_ASSIGN(auto bands, packer_.work());
-      SPECTILE_ASSIGN(auto filtered, filter_.work(source_.width()));
+      SPECTILE_ASSIGN(auto filtered, filter_.work(writer.width()));
       works_.push_back({std::move(coefficients), std::move(bands), std::move(filtered)});
     }
     return {};
@@ -74,6 +73,11 @@ class ExpandJob : public io::FilteredJob {
     pass_through(strip, line, source_.coefficients(), packed);
     stats.clamped += packer_.line(work.bands, of, width, *writer_, passing_count(), packed);
     if (options_.mipmap) filter_.scan(of, width);
+  }
+
+  std::vector<io::PlaneSpec> strip_planes() const override { return source_.planes(); }
+  float padding(std::size_t plane) const override {
+    return plane < source_.coefficients() ? rows_.black()[plane] : 0;
   }
 
   std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {

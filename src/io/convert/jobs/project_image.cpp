@@ -35,7 +35,7 @@ class ProjectJob : public io::ColorJob {
   }
 
  private:
-  std::size_t spectra_floats() const override {
+  std::size_t spectra_floats(std::size_t /*width*/) const override {
     return source_.bands().count() * kLanesPerBlock * tile_blocks();
   }
 

@@ -29,15 +29,14 @@ class RelightJob : public io::ColorJob {
         options_(options),
         stage_(source, relighter.upsampler(), options, kernels),
         straight_(source, relighter.upsampler(), options, kernels),
-        bands_(relighter.projector().bands().count()),
-        width_(static_cast<std::size_t>(source.width())) {}
+        bands_(relighter.projector().bands().count()) {}
 
   const io::ColorStage& stage() const noexcept { return stage_; }
 
  private:
   /// One block, for the computation by spectra, and after it a line of scales.
-  std::size_t spectra_floats() const override {
-    return (bands_ + (straight_.needed() ? blocks_for(width_) : 0)) * kLanesPerBlock;
+  std::size_t spectra_floats(std::size_t width) const override {
+    return (bands_ + (straight_.needed() ? blocks_for(width) : 0)) * kLanesPerBlock;
   }
 
   void make_colors(std::size_t slot, const Strip& strip, int line, io::ColorLine& color, LineStats& stats,
@@ -67,7 +66,6 @@ class RelightJob : public io::ColorJob {
   io::ColorStage stage_;
   io::StraightColor straight_;
   std::size_t bands_;
-  std::size_t width_;
 };
 
 Result<ImageReport> relight_file(const std::string& input, const std::string& output,

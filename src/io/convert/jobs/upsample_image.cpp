@@ -72,11 +72,11 @@ class UpsampleJob : public io::FilteredJob {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
       UpsampleWork work;
-      SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(source_.width()));
-      work.masked.resize(static_cast<std::size_t>(source_.width()));
-      SPECTILE_ASSIGN(work.solving, solver_.work(source_.width()));
+      SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(writer.width()));
+      work.masked.resize(static_cast<std::size_t>(writer.width()));
+      SPECTILE_ASSIGN(work.solving, solver_.work(writer.width()));
       SPECTILE_ASSIGN(work.bands, packer_.work());
-      SPECTILE_ASSIGN(work.filtered, filter_.work(source_.width()));
+      SPECTILE_ASSIGN(work.filtered, filter_.work(writer.width()));
       works_.push_back(std::move(work));
     }
     return {};
@@ -117,6 +117,12 @@ class UpsampleJob : public io::FilteredJob {
     } else {
       spectra(work, of, width, packed, stats);
     }
+  }
+
+  std::vector<io::PlaneSpec> strip_planes() const override {
+    std::vector<io::PlaneSpec> out = source_.planes();
+    if (mask_.adds_plane()) out.push_back({"", SampleType::kFloat});
+    return out;
   }
 
   std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
