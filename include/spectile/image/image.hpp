@@ -91,7 +91,7 @@ struct ImageOptions {
   ProgressFunction progress;
 };
 
-/// What the colour of a pixel that is not opaque is.
+/// Meaning of the colour of a pixel that is not opaque.
 enum class AlphaMeaning {
   kPremultiplied,  ///< a straight colour times alpha, as OpenEXR has it
   kStraight,       ///< the straight colour, whatever alpha is

@@ -1,4 +1,4 @@
-// Whether two images' samples mean the same, so that they have an average.
+// The meaning of two images' samples, which must be the same for an average.
 #include "src/io/average/same_meaning.hpp"
 
 #include <algorithm>
@@ -53,8 +53,8 @@ bool same_primaries(const RgbSpace& a, const RgbSpace& b) {
   return close(p.red, q.red) && close(p.green, q.green) && close(p.blue, q.blue) && close(p.white, q.white);
 }
 
-std::optional<std::string> colour_difference(const PartHeader& other, const PartHeader& first,
-                                             const std::string& first_path) {
+std::optional<std::string> color_difference(const PartHeader& other, const PartHeader& first,
+                                            const std::string& first_path) {
   const auto a = color_space_of(other, "");
   const auto b = color_space_of(first, first_path);
   if (a && b) {
@@ -83,7 +83,7 @@ std::optional<std::string> colour_difference(const PartHeader& other, const Part
 
 std::optional<std::string> difference_of_meaning(const PartHeader& other, const PartHeader& first,
                                                  const std::string& first_path) {
-  if (auto found = colour_difference(other, first, first_path)) return found;
+  if (auto found = color_difference(other, first, first_path)) return found;
   const double ev = other.number("EV").value_or(0);
   const double first_ev = first.number("EV").value_or(0);
   if (ev != first_ev) {

@@ -1,4 +1,4 @@
-// Whether two images' samples mean the same, so that they have an average.
+// The meaning of two images' samples, which must be the same for an average.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace spectile::io {
 
-/// What of the attributes that say what samples mean differs: colour space, exposure value, units, filters;
-/// as "its NAME is A, but that of FIRST is B". Nothing where nothing does. An attribute that is missing has
-/// its default, where there is one.
+/// The first difference of the attributes that say what samples mean: colour space, exposure value, units,
+/// filters; as "its NAME is A, but that of FIRST is B". Nothing where nothing does. An attribute that is
+/// missing has its default, where there is one.
 std::optional<std::string> difference_of_meaning(const PartHeader& other, const PartHeader& first,
                                                  const std::string& first_path);
 

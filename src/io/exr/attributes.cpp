@@ -15,7 +15,7 @@
 namespace spectile::io {
 namespace {
 
-/// What an attribute describes.
+/// Subject of an attribute.
 enum class Describes {
   kFrame,       // camera, time, owner, the image's place: holds whatever becomes of the pixels
   kStorage,     // how pixels are stored, which the writer says itself
@@ -209,7 +209,7 @@ exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part
                              const AttributeRules& rules) {
   for (auto it = from.begin(); it != from.end(); ++it) {
     const Imf::Attribute& attribute = it.attribute();
-    if (says_only_how_pixels_are_stored(attribute)) continue;
+    if (is_of_storage(attribute)) continue;
     if (fate_of(from, it.name(), attribute, rules) != Fate::kKept) continue;
     const AttributePlace at = {to, part, it.name()};
     exr_result_t result = EXR_ERR_SUCCESS;

@@ -22,7 +22,7 @@ enum class PixelChange {
   kAverage,  ///< all samples are averages, of the kind that they were
 };
 
-/// What decides which of a source's attributes an output takes over.
+/// All that decides which of a source's attributes an output takes over.
 struct AttributeRules {
   PixelChange change = PixelChange::kSpectra;
   std::set<std::string> channels;     // of the output

@@ -44,7 +44,7 @@ struct ImageSpec {
   std::vector<std::string> replaced;
   PixelChange change = PixelChange::kSpectra;
   std::string view;  // of the source, from which plain R, G, B come; empty for its default one
-  /// What decides about the source's attributes.
+  /// All that decides about the source's attributes.
   AttributeRules rules() const;
   /// True if a channel, an attribute or a type has a name that old versions of OpenEXR do not read.
   bool has_long_names() const;

@@ -134,7 +134,7 @@ TEST_F(AverageWindows, CryptomatteIsTheFirstOnes) {
 }
 
 TEST_F(AverageWindows, PartsOfTheSameNameAreAveraged) {
-  const auto colour = [&](double value) { return part(10, 20, 69, 69, value); };
+  const auto beauty_of = [&](double value) { return part(10, 20, 69, 69, value); };
   const auto depth = [&](double value) {
     test::Picture picture = test::blank(7, 5, {12, 22});
     picture.header.displayWindow() = {{10, 20}, {69, 69}};
@@ -143,8 +143,8 @@ TEST_F(AverageWindows, PartsOfTheSameNameAreAveraged) {
     picture.header.insert("owner", Imf::StringAttribute("depth"));
     return picture;
   };
-  const std::string a = write_parts("a.exr", {{"beauty", colour(1)}, {"depth", depth(10)}});
-  const std::string b = write_parts("b.exr", {{"depth", depth(20)}, {"beauty", colour(2)}});
+  const std::string a = write_parts("a.exr", {{"beauty", beauty_of(1)}, {"depth", depth(10)}});
+  const std::string b = write_parts("b.exr", {{"depth", depth(20)}, {"beauty", beauty_of(2)}});
   for (const CompressionKind kind : {CompressionKind::kZip, CompressionKind::kPiz, CompressionKind::kDwaa}) {
     AverageOptions options;
     options.compression = {kind, -1};
@@ -163,7 +163,7 @@ TEST_F(AverageWindows, PartsOfTheSameNameAreAveraged) {
       }
     }
   }
-  const std::string c = write_parts("c.exr", {{"beauty", colour(1)}, {"normals", depth(10)}});
+  const std::string c = write_parts("c.exr", {{"beauty", beauty_of(1)}, {"normals", depth(10)}});
   expect_error({a, c}, kPlain, ErrorCode::kBadFile, {"c.exr: has no part \"depth\"", "a.exr has one"});
 }
 

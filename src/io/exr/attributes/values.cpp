@@ -102,7 +102,7 @@ bool set_list(const Imf::Attribute& from, const AttributePlace& at, exr_result_t
 
 }  // namespace
 
-bool says_only_how_pixels_are_stored(const Imf::Attribute& attribute) {
+bool is_of_storage(const Imf::Attribute& attribute) {
   const std::string_view type = attribute.typeName();
   return type.empty() || type == "chlist" || type == "compression" || type == "lineOrder" ||
          type == "tiledesc";

@@ -19,7 +19,7 @@ struct AttributePlace {
 /// True for types that say nothing but how pixels are stored, whatever the attribute's name, and for none at
 /// all, which only damaged files have. OpenEXR 3.1.5's C library, which would be given them like those of
 /// other types that are not known here, takes neither: it crashes.
-bool says_only_how_pixels_are_stored(const Imf::Attribute& attribute);
+bool is_of_storage(const Imf::Attribute& attribute);
 
 /// Writes a value; a type that this build does not know as it is.
 exr_result_t copy_value(const Imf::Attribute& from, const AttributePlace& at);

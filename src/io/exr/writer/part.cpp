@@ -39,10 +39,10 @@ AttributeRules ImageSpec::rules() const {
 
 std::optional<std::string> left_out_note(const ImageSpec& spec) {
   // Filters have a curve for each channel.
-  constexpr std::size_t kMostNames = 8;
+  constexpr std::size_t kMaxNames = 8;
   std::vector<std::string> names = attributes_left_out(spec.source->imf(), spec.rules());
   if (names.empty()) return {};
-  const std::size_t more = names.size() > kMostNames ? names.size() - kMostNames : 0;
+  const std::size_t more = names.size() > kMaxNames ? names.size() - kMaxNames : 0;
   names.resize(names.size() - more);
   return fmt::format("attributes left out, since they describe what the output does not hold: {}{}",
                      fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");

@@ -20,7 +20,7 @@ class LevelWindows : public test::Mipmap {
     picture_.header.displayWindow() = display;
     test::write_scanlines(in_, picture_);
   }
-  /// What upsampling without levels gives, cut and filled up to the display window.
+  /// The picture made without levels, cut and filled up to the display window.
   Picture fitted(const Picture& plain) const {
     const Imath::Box2i to = plain.header.displayWindow();
     const Imath::Box2i from = plain.header.dataWindow();

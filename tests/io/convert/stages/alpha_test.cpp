@@ -1,4 +1,4 @@
-// What alpha means to spectra: premultiplied colours have the premultiplied spectra of the straight ones.
+// Alpha and spectra: premultiplied colours have the premultiplied spectra of the straight ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
