@@ -10,6 +10,7 @@
 #include "src/cli/commands.hpp"
 #include "src/cli/options/command.hpp"
 #include "src/cli/output/messages.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace {
 

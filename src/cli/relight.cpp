@@ -53,6 +53,7 @@ void add_relight(const Command& app, int& exit) {
   command.choice("--way", a->mode, kModes, kColorGroup,
                  "direct, or spectra: spectrum by spectrum, to check the former");
   add_method_options(command, a->method);
+  add_alpha_option(command, a->method);
   a->image.add_options(
       command, "half",
       "spectile relight wood.exr -o wood-fl11.exr --illuminant FL11 --adapt cat16\n" + kSpectrumHelp);

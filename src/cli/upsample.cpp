@@ -23,7 +23,11 @@ int run_upsample(const UpsampleArguments& a) {
   apply_method_options(a.method, options);
   options.store = a.store;
   options.skip = !a.no_skip;
-  if (!a.mask.empty()) options.masking = a.mask == "none" ? Masking::kNone : Masking::kFile;
+  if (a.mask == "alpha") {
+    options.masking = Masking::kAlpha;
+  } else if (!a.mask.empty() && a.mask != "none") {
+    options.masking = Masking::kFile;
+  }
   if (options.masking == Masking::kFile) options.mask = a.mask;
   std::vector<NamedFile> dependencies = method_files(a.method);
   if (!options.mask.empty()) dependencies.push_back({options.mask, "the mask (--mask)"});
@@ -41,8 +45,9 @@ void add_upsample(const Command& app, int& exit) {
       add_subcommand(app, "upsample", "Turn RGB images into spectral ones", run_upsample, exit);
   a->image.add_files(command, "RGB OpenEXR images: half, float or uint, scanline or tiled");
   add_method_options(command, a->method);
+  add_alpha_option(command, a->method);
   command.option("--mask", a->mask, "FILE", kFilesGroup,
-                 "Image that is 0 where pixels become black, or none; own alpha by default");
+                 "Image that is 0 where pixels become black; alpha: the image's own; none by default");
   command.choice("--store", a->store, kStores, kFormatGroup,
                  "spectra: a channel per band; coefficients: for spectile expand");
   a->image.add_options(

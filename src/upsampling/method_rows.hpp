@@ -63,12 +63,14 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
 GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
                        GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside = nullptr);
 
-/// RGB of n lanes, a multiple of 64, to colour; `out` may be `rgb`.
+/// RGB of n lanes, a multiple of 64, to colour; `out` may be `rgb`. `scale` [n]: a factor of each lane's
+/// spectrum, for methods without a scale of their own; null for 1.
 void relight(const kernels::KernelTable& kernels, const Relighter& relighter, const float* const rgb[3],
-             float* const out[3], std::size_t n);
+             float* const out[3], std::size_t n, const float* scale = nullptr);
 
 /// The same through spectra, block by block in the caches. `spectra` holds one block.
 void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& relighter,
-                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n);
+                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n,
+                        const float* scale = nullptr);
 
 }  // namespace spectile::rows

@@ -69,7 +69,7 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
 namespace rows {
 
 void relight(const kernels::KernelTable& kernels, const Relighter& relighter, const float* const rgb[3],
-             float* const out[3], std::size_t n) {
+             float* const out[3], std::size_t n, const float* scale) {
   const Upsampler& upsampler = relighter.upsampler();
   if (mixes_bases(upsampler)) {
     const float* const table = RelighterAccess::table(relighter);
@@ -89,21 +89,23 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
   const float* const read[3] = {c[0], c[1], c[2]};
   const Projector& projector = relighter.projector();
   const std::array<float, 9> matrix = color::to_float(relighter.matrix());
-  const kernels::SigmoidSpectra spectra = {read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows,
-                                           projector.bands().count(), false};
+  kernels::SigmoidSpectra spectra = {read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows,
+                                     projector.bands().count(), false};
   for (std::size_t at = 0; at < n; at += rows::kChunk) {
     const std::size_t lanes = std::min(rows::kChunk, n - at);
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     float* const to[3] = {out[0] + at, out[1] + at, out[2] + at};
     const float* const xyz[3] = {to[0], to[1], to[2]};
     solve(kernels, upsampler, in, found, unsolved, lanes);
+    if (scale != nullptr) spectra.scale = scale + at;
     kernels.sigmoid_project(to, spectra, ProjectorAccess::weights(projector), lanes);
     kernels.transform3(to, xyz, matrix.data(), lanes);
   }
 }
 
 void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& relighter,
-                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n) {
+                        const float* const rgb[3], float* const out[3], float* spectra, std::size_t n,
+                        const float* scale) {
   const Upsampler& upsampler = relighter.upsampler();
   const Projector& projector = relighter.projector();
   const std::array<float, 9> matrix = color::to_float(relighter.matrix());
@@ -117,7 +119,8 @@ void relight_by_spectra(const kernels::KernelTable& kernels, const Relighter& re
     const float* const xyz[3] = {to[0], to[1], to[2]};
     std::uint64_t unsolved = 0;
     solve(kernels, upsampler, in, found, &unsolved, kernels::kLanes);
-    expand_blocks(kernels, upsampler, read, found.scale, spectra, 1, false);
+    const float* const factors = scale != nullptr ? scale + at : found.scale;
+    expand_blocks(kernels, upsampler, read, factors, spectra, 1, false);
     kernels.project(to, spectra, ProjectorAccess::weights(projector), projector.bands().count(), 1);
     kernels.transform3(to, xyz, matrix.data(), kernels::kLanes);
   }

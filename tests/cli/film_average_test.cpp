@@ -105,7 +105,8 @@ TEST_F(FilmAverage, SaysWhatIsWrongInOneLine) {
   test::Picture other = test::blank(12, 8);
   test::add_rgb_noise(other, Imf::HALF);
   test::write_scanlines(folder_ / "other.exr", other);
-  expect_failure(average({folder_ / "other.exr"}), 1, "is 12 x 8 pixels, but " + in_[0] + " is 12 x 7");
+  expect_failure(average({folder_ / "other.exr"}), 1,
+                 "its display window is 0,0 to 11,7, but that of " + in_[0]);
 }
 
 TEST_F(FilmAverage, NonFiniteSamplesStopOrAreLeftOut) {

@@ -29,6 +29,7 @@ struct Outcome {
   int exit = -1;      ///< -1 when a signal ended it
   int signal = 0;     ///< 0 when it exited
   bool late = false;  ///< killed for taking too long
+  long peak_mib = 0;  ///< the largest that it was in memory
   std::string out;
   std::string err;
 
@@ -88,7 +89,7 @@ class Tool {
 
   pid_t pid() const { return pid_; }
   bool running() {
-    if (pid_ > 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = 0;
+    if (pid_ > 0 && ::wait4(pid_, &status_, WNOHANG, &usage_) == pid_) pid_ = 0;
     return pid_ > 0;
   }
   /// Waits for the end, at most so long; then kills.
@@ -104,6 +105,7 @@ class Tool {
     }
     if (WIFEXITED(status_)) outcome.exit = WEXITSTATUS(status_);
     if (WIFSIGNALED(status_)) outcome.signal = WTERMSIG(status_);
+    outcome.peak_mib = usage_.ru_maxrss / 1024;
     outcome.out = contents(out_);
     outcome.err = contents(err_);
     return outcome;
@@ -136,6 +138,7 @@ class Tool {
   int out_ = -1;
   int err_ = -1;
   int status_ = 0;
+  rusage usage_{};
   pid_t pid_ = -1;
 };
 

@@ -20,11 +20,14 @@ struct AverageOptions : ImageOptions {
 
 /// Averages images of one frame, channel by channel: sum of weight * sample over sum of weights. The sums are
 /// exact and the average is rounded once, so neither the images' order nor a factor common to all weights
-/// changes a bit of the samples. Attributes are those of the first image; `spectileAverage` says how many
-/// images there were, and the sum of their weights.
-/// Shapes: all images have the same windows and channels, none subsampled, in one part. Channels of whole
-/// numbers (uint), which cannot be averaged, must be equal in all images. An image of weight 0 gives its
-/// header alone: its samples are not read. Units: the images'. Weights have none; samples a pixel, say.
+/// changes a bit of the samples. Attributes are those of the first image, but for those that describe its
+/// pixels; `spectileAverage` says how many images there were, and the sum of their weights.
+/// Shapes: all images have the same display window, channels, none subsampled, and parts, whose order may
+/// differ; each part is averaged by itself. Where data windows differ the average has the least that holds
+/// them all: a pixel is the average of the images that cover it, 0 where none does. Channels that name
+/// objects, uint or of a Cryptomatte, are not averaged but the first image's. Notes say so. An image of
+/// weight 0 gives its header alone: its samples are not read. Units: the images', which must be the same:
+/// colour space, exposure value (EV), emissiveUnits, filters. Weights have none; samples a pixel, say.
 /// Errors: kBadArgument for no images, weights of another number than these, negative, not finite, all 0, or
 /// too far apart to be summed exactly (beyond about 2^40), and an output that is an input; kBadFile for
 /// images that differ, which names both and what differs; kNonFinite, with the image, its first such pixel

@@ -108,6 +108,15 @@ struct ImageOptions {
   ProgressFunction progress;
 };
 
+/// Meaning of the colour of a pixel that is not opaque.
+enum class AlphaMeaning {
+  kPremultiplied,  ///< a straight colour times alpha, as OpenEXR has it
+  kStraight,       ///< the straight colour, whatever alpha is
+  kIgnored,        ///< any colour: alpha says nothing of it
+};
+/// "premultiplied", "straight" or "ignore".
+std::string_view to_string(AlphaMeaning meaning);
+
 /// How colours become spectra: what upsampling, relighting and verification share.
 struct MethodOptions : ImageOptions {
   Method method = kDefaultMethod;
@@ -118,6 +127,10 @@ struct MethodOptions : ImageOptions {
   std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
+  /// Of the input, where it has alpha. It matters to methods whose spectrum of half a colour is not half of
+  /// its spectrum, the sigmoid's reflectances: their premultiplied spectra are alpha times the spectra of the
+  /// straight colours. Colours of alpha 0, and of 1 and more, are made into spectra as they are.
+  AlphaMeaning alpha = AlphaMeaning::kPremultiplied;
 };
 
 /// Contents of the output of upsample_image().
@@ -130,13 +143,13 @@ enum class Store {
 /// anything, NaN too).
 enum class Masking {
   kAlpha,  ///< those whose own alpha is 0; none where there is no alpha
-  kNone,   ///< none: textures that glow where alpha is 0 keep their colours
+  kNone,   ///< none: what glows where alpha is 0, a flame say, keeps its colours
   kFile,   ///< those where another image is 0; alpha does not matter then
 };
 
 struct UpsampleImageOptions : MethodOptions {
   Store store = Store::kSpectra;
-  Masking masking = Masking::kAlpha;
+  Masking masking = Masking::kNone;
   /// For Masking::kFile: an image of the same size, of which channel A counts, else Y, else R. Errors:
   /// kBadFile for one of another size, or without such a channel.
   std::string mask;

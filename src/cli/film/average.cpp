@@ -31,6 +31,7 @@ nlohmann::json to_json(const AverageArguments& a, const AverageOptions& options,
                         {"clamped_pixels", r.clamped_pixels},
                         {"bytes_written", r.bytes_written},
                         {"seconds", r.seconds},
+                        {"notes", r.notes},
                         {"mpixel_per_s", static_cast<double>(r.pixels()) / r.seconds * 1e-6}};
   if (!options.weights.empty()) out["weights"] = options.weights;
   return out;
@@ -43,6 +44,7 @@ void print_report(const AverageArguments& a, const ImageReport& r) {
     print("  {} with non-finite samples, which were left out\n", plural(r.nonfinite_pixels, "pixel"));
   }
   print_clamped(r.clamped_pixels, "pixel");
+  for (const std::string& note : r.notes) print("  {}\n", note);
 }
 
 int run_average(const AverageArguments& a) {
@@ -76,7 +78,7 @@ int run_average(const AverageArguments& a) {
 void add_film_average(const Command& film, int& exit) {
   const auto [command, a] = add_subcommand(
       film, "average", "Average renders of one frame exactly, in any order", run_average, exit);
-  command.positional("IN", a->inputs, "OpenEXR images with the same windows and channels").required();
+  command.positional("IN", a->inputs, "OpenEXR images of one frame with the same channels").required();
   command.output_file("-o,--output", a->output, kFilesGroup, "Image to write").required();
   command.option("--weights", a->weights, "W,W...", kFilesGroup,
                  "Weight of each image, such as 64,64,128; equal by default");

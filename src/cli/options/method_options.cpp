@@ -21,7 +21,16 @@ constexpr Choice<GamutPolicy> kGamutPolicies[] = {{"clip", GamutPolicy::kClip},
                                                   {"error", GamutPolicy::kError},
                                                   {"stop", GamutPolicy::kError}};
 
+constexpr Choice<AlphaMeaning> kAlphaMeanings[] = {{"premultiplied", AlphaMeaning::kPremultiplied},
+                                                   {"straight", AlphaMeaning::kStraight},
+                                                   {"ignore", AlphaMeaning::kIgnored}};
+
 }  // namespace
+
+void add_alpha_option(const Command& command, MethodArguments& a) {
+  command.choice("--alpha", a.alpha, kAlphaMeanings, kColorGroup,
+                 "Colour of pixels that are not opaque: premultiplied, straight, or ignore alpha");
+}
 
 void add_method_option(const Command& command, std::string& method) {
   command
@@ -72,6 +81,7 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
   out.input_space = space_of(a.input_space);
   out.negative = a.negative;
   out.out_of_gamut = a.out_of_gamut;
+  out.alpha = a.alpha;
   out.channels = channel_choice(a.channels);
 }
 

@@ -19,10 +19,14 @@ struct MethodArguments {
   std::string input_space;
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;
+  AlphaMeaning alpha = AlphaMeaning::kPremultiplied;
   ChannelArguments channels;
 };
 
 void add_method_options(const Command& command, MethodArguments& a);
+
+/// Adds --alpha.
+void add_alpha_option(const Command& command, MethodArguments& a);
 
 // Parts of them, for other commands that read RGB images.
 void add_method_option(const Command& command, std::string& method);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "src/base/errors.hpp"
+#include "src/io/average/same_meaning.hpp"
 
 namespace spectile::io {
 namespace {
@@ -14,32 +15,62 @@ std::string to_text(const PixelWindow& window) {
   return fmt::format("{},{} to {},{}", window.x0, window.y0, window.x1 - 1, window.y1 - 1);
 }
 
-Result<void> check_kind(const ExrInput& input) {
-  if (input.parts() > 1) {
-    return make_error(ErrorCode::kBadFile, "{}: has {} parts; only images of one part can be averaged",
-                      input.path(), input.parts());
-  }
-  const auto& channels = input.header(0).channels();
-  if (channels.empty()) return make_error(ErrorCode::kBadFile, "{}: has no channels", input.path());
-  for (const StoredChannel& channel : channels) SPECTILE_TRY(check_sampling(channel, input.path()));
+/// "PATH", or "PATH, part NAME".
+std::string place(const std::string& path, const std::string& part) {
+  return part.empty() ? path : fmt::format("{}, part \"{}\"", path, part);
+}
+
+Result<void> check_kind(const PartHeader& header, const std::string& where) {
+  if (header.deep()) return make_error(ErrorCode::kBadFile, "{}: is deep, which has no average", where);
+  if (header.channels().empty()) return make_error(ErrorCode::kBadFile, "{}: has no channels", where);
+  for (const StoredChannel& channel : header.channels()) SPECTILE_TRY(check_sampling(channel, where));
   return {};
 }
 
 }  // namespace
 
-Result<std::unique_ptr<AverageInputs>> AverageInputs::open(std::span<const std::string> paths, int threads) {
+Result<std::unique_ptr<AverageInputs>> AverageInputs::open(std::span<const std::string> paths, int threads,
+                                                           int part) {
   std::unique_ptr<AverageInputs> inputs(new AverageInputs);
   inputs->paths_.assign(paths.begin(), paths.end());
   // Many images are decoded side by side, each by one thread; few by all threads each.
   inputs->threads_each_ = paths.size() < static_cast<std::size_t>(threads) ? threads : 1;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     SPECTILE_ASSIGN(auto input, inputs->open_one(i));
-    SPECTILE_TRY(check_kind(*input));
-    SPECTILE_TRY(i == 0 ? inputs->start(*input) : inputs->compare(*input));
-    inputs->chunk_lines_ = std::max(inputs->chunk_lines_, input->header(0).chunk_lines());
+    if (i == 0) {
+      inputs->parts_ = input->parts();
+      if (inputs->parts_ > 1) inputs->name_ = input->header(part).text("name").value_or("");
+      inputs->part_.push_back(part);
+    } else {
+      SPECTILE_ASSIGN(const int like, inputs->find_part(*input));
+      inputs->part_.push_back(like);
+    }
+    const PartHeader& header = input->header(inputs->part_.back());
+    SPECTILE_TRY(check_kind(header, place(paths[i], inputs->name_)));
+    if (i == 0) {
+      inputs->start(header);
+    } else {
+      SPECTILE_TRY(inputs->compare(header, paths[i]));
+    }
+    inputs->windows_.push_back(header.data_window());
+    inputs->chunk_lines_ = std::max(inputs->chunk_lines_, header.chunk_lines());
     if (i < inputs->most_open()) inputs->open_.push_back(std::move(input));
   }
+  SPECTILE_TRY(inputs->unite());
   return inputs;
+}
+
+Result<int> AverageInputs::find_part(const ExrInput& input) const {
+  if (input.parts() != parts_) {
+    return make_error(ErrorCode::kBadFile, "{}: has {} part{}, but {} has {}", input.path(), input.parts(),
+                      input.parts() == 1 ? "" : "s", paths_[0], parts_);
+  }
+  if (parts_ == 1) return 0;
+  for (int part = 0; part < parts_; ++part) {
+    if (input.header(part).text("name").value_or("") == name_) return part;
+  }
+  return make_error(ErrorCode::kBadFile, "{}: has no part \"{}\", but {} has one", input.path(), name_,
+                    paths_[0]);
 }
 
 Result<std::unique_ptr<ExrInput>> AverageInputs::open_one(std::size_t input) {
@@ -47,27 +78,17 @@ Result<std::unique_ptr<ExrInput>> AverageInputs::open_one(std::size_t input) {
   return ExrInput::open(paths_[input], threads_each_);
 }
 
-Result<void> AverageInputs::start(const ExrInput& first) {
-  header_ = first.header(0);
+void AverageInputs::start(const PartHeader& first) {
+  header_ = first;
   for (const StoredChannel& channel : header_.channels()) planes_.push_back({channel.name, channel.type});
-  return {};
 }
 
-Result<void> AverageInputs::compare(const ExrInput& other) {
-  const std::string& first = paths_[0];
-  const PartHeader& h = other.header(0);
+Result<void> AverageInputs::compare(const PartHeader& h, const std::string& path) {
+  const std::string first = place(paths_[0], name_);
   const auto differ = [&]<class... Args>(fmt::format_string<Args...> format, Args&&... args) {
-    return make_error(ErrorCode::kBadFile, "{}: {}", other.path(),
+    return make_error(ErrorCode::kBadFile, "{}: {}", place(path, name_),
                       fmt::format(format, std::forward<Args>(args)...));
   };
-  if (h.width() != header_.width() || h.height() != header_.height()) {
-    return differ("is {} x {} pixels, but {} is {} x {}", h.width(), h.height(), first, header_.width(),
-                  header_.height());
-  }
-  if (h.data_window() != header_.data_window()) {
-    return differ("its data window is {}, but that of {} is {}", to_text(h.data_window()), first,
-                  to_text(header_.data_window()));
-  }
   if (h.display_window() != header_.display_window()) {
     return differ("its display window is {}, but that of {} is {}", to_text(h.display_window()), first,
                   to_text(header_.display_window()));
@@ -86,12 +107,38 @@ Result<void> AverageInputs::compare(const ExrInput& other) {
     }
     if (channel->type == SampleType::kFloat) plane.type = SampleType::kFloat;
   }
+  if (const auto difference = difference_of_meaning(h, header_, first)) return differ("{}", *difference);
   return {};
 }
 
-bool AverageInputs::is_as_before(const ExrInput& again) const {
-  const PartHeader& h = again.header(0);
-  if (again.parts() != 1 || h.data_window() != header_.data_window()) return false;
+/// The least window that holds all of them becomes that of the average.
+Result<void> AverageInputs::unite() {
+  PixelWindow all = windows_[0];
+  for (const PixelWindow& one : windows_) {
+    crops_ = crops_ || one != all;
+    all = {std::min(all.x0, one.x0), std::min(all.y0, one.y0), std::max(all.x1, one.x1),
+           std::max(all.y1, one.y1)};
+  }
+  const std::int64_t width = std::int64_t{all.x1} - all.x0;
+  const std::int64_t height = std::int64_t{all.y1} - all.y0;
+  if (std::max(width, height) > PartHeader::kMaxSide) {
+    return make_error(ErrorCode::kBadFile, "the data windows from {} to {} span {} x {} pixels, at most {}",
+                      paths_.front(), paths_.back(), width, height, PartHeader::kMaxSide);
+  }
+  header_ = header_.with_data_window(all);
+  return {};
+}
+
+PixelWindow AverageInputs::window(std::size_t input) const {
+  const PixelWindow& own = windows_[input];
+  const PixelWindow& all = header_.data_window();
+  return {own.x0 - all.x0, own.y0 - all.y0, own.x1 - all.x0, own.y1 - all.y0};
+}
+
+bool AverageInputs::is_as_before(const ExrInput& again, std::size_t input) const {
+  if (again.parts() != parts_) return false;
+  const PartHeader& h = again.header(part_[input]);
+  if (h.deep() || h.data_window() != windows_[input]) return false;
   return std::all_of(planes_.begin(), planes_.end(), [&](const PlaneSpec& plane) {
     const StoredChannel* const channel = h.find(plane.name);
     const bool there = channel != nullptr && !channel->subsampled();
@@ -116,12 +163,12 @@ std::size_t AverageInputs::most_open() const {
 }
 
 Result<void> AverageInputs::fill(std::size_t input, Strip& strip) {
-  if (input < open_.size()) return fill_strip(*open_[input], 0, planes_, strip);
+  if (input < open_.size()) return fill_strip(*open_[input], part_[input], planes_, strip);
   SPECTILE_ASSIGN(auto again, open_one(input));
-  if (!is_as_before(*again)) {
+  if (!is_as_before(*again, input)) {
     return make_error(ErrorCode::kBadFile, "{}: is not any more what it was", paths_[input]);
   }
-  return fill_strip(*again, 0, planes_, strip);
+  return fill_strip(*again, part_[input], planes_, strip);
 }
 
 }  // namespace spectile::io

@@ -1,141 +1,202 @@
-// Attributes of an image that pass from the input to the output.
+// Attributes of an image: what each describes, and what becomes of it in an image made of that one.
 #include "src/io/exr/attributes.hpp"
 
-#include <OpenEXR/ImfBoxAttribute.h>
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfEnvmapAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
-#include <OpenEXR/ImfFloatVectorAttribute.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfKeyCodeAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
-#include <OpenEXR/ImfPreviewImageAttribute.h>
-#include <OpenEXR/ImfRationalAttribute.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
-#include <OpenEXR/ImfTimeCodeAttribute.h>
-#include <OpenEXR/ImfVecAttribute.h>
-#include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
-#include <cstring>
-#include <set>
+#include <string_view>
 
-#include "src/io/exr/memory_stream.hpp"
+#include "src/io/exr/attributes/values.hpp"
+#include "src/io/exr/part_header.hpp"
 
 namespace spectile::io {
 namespace {
 
-/// Attributes that say how pixels are stored, or belong to one part among several; the writer makes its own.
-bool describes_storage(const std::string& name) {
-  static const std::set<std::string> kNames = {"channels",
-                                               "chunkCount",
-                                               "compression",
-                                               "dataWindow",
-                                               "displayWindow",
-                                               "dwaCompressionLevel",
-                                               "lineOrder",
-                                               "maxSamplesPerPixel",
-                                               "multiView",
-                                               "name",
-                                               "pixelAspectRatio",
-                                               "screenWindowCenter",
-                                               "screenWindowWidth",
-                                               "tiles",
-                                               "type",
-                                               "version",
-                                               "view"};
-  return kNames.contains(name);
-}
-
-/// Types that say nothing but how pixels are stored, whatever the attribute's name, and none at all, which
-/// only damaged files have. OpenEXR 3.1.5's C library, which would be given them like those of other types
-/// that are not known here, takes neither: it crashes.
-bool must_stay_behind(std::string_view type) {
-  return type.empty() || type == "chlist" || type == "compression" || type == "lineOrder" ||
-         type == "tiledesc";
-}
-
-/// A target attribute's place: context, part, name.
-struct Place {
-  exr_context_t to;
-  int part;
-  const char* name;
+/// Subject of an attribute.
+enum class Describes {
+  kFrame,       // camera, time, owner, the image's place: holds whatever becomes of the pixels
+  kStorage,     // how pixels are stored, which the writer says itself
+  kPixels,      // the samples as they were
+  kPicture,     // R, G, B as they were
+  kSpectra,     // spectral channels
+  kColorSpace,  // what R, G, B mean
 };
 
-/// Sets an attribute whose C struct has the same layout as the C++ value.
-template <class Attribute, class Plain>
-bool set_plain(const Imf::Attribute& from, const Place& at, exr_result_t& result,
-               exr_result_t (*set)(exr_context_t, int, const char*, const Plain*)) {
-  const auto* typed = dynamic_cast<const Attribute*>(&from);
-  if (typed == nullptr) return false;
-  static_assert(sizeof(typed->value()) == sizeof(Plain));
-  Plain plain;
-  // Both are plain numbers in the same order, though the C++ classes have constructors of their own.
-  std::memcpy(static_cast<void*>(&plain), static_cast<const void*>(&typed->value()), sizeof(Plain));
-  result = set(at.to, at.part, at.name, &plain);
-  return true;
+/// The one list of attributes that are not of the frame. Sources: Technical Introduction to OpenEXR and its
+/// ImfStandardAttributes.h; OpenImageIO 2.4's maketx; Fichet, Pacanowski, Wilkie, JCGT 10(3), 2021;
+/// SMPTE ST 2065-4.
+constexpr struct {
+  std::string_view name;
+  Describes describes;
+} kKnown[] = {
+    {"channels", Describes::kStorage},
+    {"chunkCount", Describes::kStorage},
+    {"compression", Describes::kStorage},
+    {"dataWindow", Describes::kStorage},
+    {"displayWindow", Describes::kStorage},
+    {"dwaCompressionLevel", Describes::kStorage},
+    {"lineOrder", Describes::kStorage},
+    {"maxSamplesPerPixel", Describes::kStorage},
+    {"name", Describes::kStorage},
+    {"pixelAspectRatio", Describes::kStorage},
+    {"screenWindowCenter", Describes::kStorage},
+    {"screenWindowWidth", Describes::kStorage},
+    {"tiles", Describes::kStorage},
+    {"type", Describes::kStorage},
+    {"version", Describes::kStorage},
+    {kSettingsAttribute, Describes::kStorage},
+    {"oiio:SHA-1", Describes::kPixels},
+    {"oiio:AverageColor", Describes::kPixels},
+    {"oiio:ConstantColor", Describes::kPixels},
+    {"acesImageContainerFlag", Describes::kPixels},
+    {"preview", Describes::kPicture},
+    {"adoptedNeutral", Describes::kPicture},
+    {"whiteLuminance", Describes::kPicture},
+    {"renderingTransform", Describes::kPicture},
+    {"lookModTransform", Describes::kPicture},
+    {"spectralLayoutVersion", Describes::kSpectra},
+    {"emissiveUnits", Describes::kSpectra},
+    {"polarisationHandedness", Describes::kSpectra},
+    {"EV", Describes::kSpectra},
+    {"lensTransmission", Describes::kSpectra},
+    {"cameraResponse", Describes::kSpectra},
+    {"chromaticities", Describes::kColorSpace},
+    {"colorInteropID", Describes::kColorSpace},
+    {"oiio:ColorSpace", Describes::kColorSpace},
+    {"ICCProfile", Describes::kColorSpace},
+};
+
+/// True for the name of a spectral channel, after which the layout names the curve of a channel's filter.
+bool names_a_spectral_channel(std::string_view name) {
+  const std::size_t point = name.find('.');
+  if (point == std::string_view::npos || point + 1 == name.size()) return false;
+  const std::string_view kind = name.substr(0, point);
+  const bool digit = name[point + 1] >= '0' && name[point + 1] <= '9';
+  return digit && (kind == "T" || (kind.size() == 2 && kind[0] == 'S' && kind[1] >= '0' && kind[1] <= '3'));
 }
 
-bool set_numbers(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
-  return set_plain<Imf::Box2iAttribute>(from, at, result, exr_attr_set_box2i) ||
-         set_plain<Imf::Box2fAttribute>(from, at, result, exr_attr_set_box2f) ||
-         set_plain<Imf::V2iAttribute>(from, at, result, exr_attr_set_v2i) ||
-         set_plain<Imf::V2fAttribute>(from, at, result, exr_attr_set_v2f) ||
-         set_plain<Imf::V2dAttribute>(from, at, result, exr_attr_set_v2d) ||
-         set_plain<Imf::V3iAttribute>(from, at, result, exr_attr_set_v3i) ||
-         set_plain<Imf::V3fAttribute>(from, at, result, exr_attr_set_v3f) ||
-         set_plain<Imf::V3dAttribute>(from, at, result, exr_attr_set_v3d) ||
-         set_plain<Imf::M33fAttribute>(from, at, result, exr_attr_set_m33f) ||
-         set_plain<Imf::M33dAttribute>(from, at, result, exr_attr_set_m33d) ||
-         set_plain<Imf::M44fAttribute>(from, at, result, exr_attr_set_m44f) ||
-         set_plain<Imf::M44dAttribute>(from, at, result, exr_attr_set_m44d) ||
-         set_plain<Imf::RationalAttribute>(from, at, result, exr_attr_set_rational) ||
-         set_plain<Imf::ChromaticitiesAttribute>(from, at, result, exr_attr_set_chromaticities);
-}
-
-bool set_scalar(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
-  if (const auto* a = dynamic_cast<const Imf::IntAttribute*>(&from)) {
-    result = exr_attr_set_int(at.to, at.part, at.name, a->value());
-  } else if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&from)) {
-    result = exr_attr_set_float(at.to, at.part, at.name, f->value());
-  } else if (const auto* d = dynamic_cast<const Imf::DoubleAttribute*>(&from)) {
-    result = exr_attr_set_double(at.to, at.part, at.name, d->value());
-  } else if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&from)) {
-    result = exr_attr_set_string(at.to, at.part, at.name, s->value().c_str());
-  } else if (const auto* e = dynamic_cast<const Imf::EnvmapAttribute*>(&from)) {
-    result = exr_attr_set_envmap(at.to, at.part, at.name, static_cast<exr_envmap_t>(e->value()));
-  } else if (const auto* t = dynamic_cast<const Imf::TimeCodeAttribute*>(&from)) {
-    const exr_attr_timecode_t value = {t->value().timeAndFlags(), t->value().userData()};
-    result = exr_attr_set_timecode(at.to, at.part, at.name, &value);
-  } else if (const auto* k = dynamic_cast<const Imf::KeyCodeAttribute*>(&from)) {
-    const Imf::KeyCode& v = k->value();
-    const exr_attr_keycode_t value = {v.filmMfcCode(), v.filmType(),      v.prefix(),       v.count(),
-                                      v.perfOffset(),  v.perfsPerFrame(), v.perfsPerCount()};
-    result = exr_attr_set_keycode(at.to, at.part, at.name, &value);
-  } else {
-    return false;
+Describes described_by(std::string_view name, std::string_view type) {
+  for (const auto& known : kKnown) {
+    if (known.name == name) return known.describes;
   }
-  return true;
+  if (names_a_spectral_channel(name)) return Describes::kSpectra;
+  return type == "preview" ? Describes::kPicture : Describes::kFrame;
 }
 
-bool set_list(const Imf::Attribute& from, const Place& at, exr_result_t& result) {
-  if (const auto* f = dynamic_cast<const Imf::FloatVectorAttribute*>(&from)) {
-    const float none = 0;  // an empty list needs an address too
-    result = exr_attr_set_float_vector(at.to, at.part, at.name, static_cast<int>(f->value().size()),
-                                       f->value().empty() ? &none : f->value().data());
-  } else if (const auto* s = dynamic_cast<const Imf::StringVectorAttribute*>(&from)) {
-    std::vector<const char*> texts;
-    for (const std::string& text : s->value()) texts.push_back(text.c_str());
-    const char* none = "";
-    result = exr_attr_set_string_vector(at.to, at.part, at.name, static_cast<int>(texts.size()),
-                                        texts.empty() ? &none : texts.data());
-  } else if (const auto* p = dynamic_cast<const Imf::PreviewImageAttribute*>(&from)) {
-    static_assert(sizeof(Imf::PreviewRgba) == 4);
-    const exr_attr_preview_t value = {p->value().width(), p->value().height(), 0,
-                                      reinterpret_cast<const std::uint8_t*>(p->value().pixels())};
-    result = exr_attr_set_preview(at.to, at.part, at.name, &value);
+/// True for an attribute that is named after a channel, or begins with its name and a point, if the source
+/// or the output alone has that channel.
+bool belongs_to_one_alone(std::string_view name, const Imf::ChannelList& source,
+                          const std::set<std::string>& output) {
+  for (std::size_t end = name.size(); end != std::string_view::npos && end > 0;
+       end = name.rfind('.', end - 1)) {
+    const std::string channel(name.substr(0, end));
+    const bool before = source.findChannel(channel) != nullptr;
+    const bool after = output.contains(channel);
+    if (before || after) return before != after;
+  }
+  return false;
+}
+
+/// True for an entry of a Cryptomatte manifest, "cryptomatte/KEY/...", whose channels are all gone.
+bool is_manifest_of_nothing(const Imf::Header& from, const std::string& name,
+                            const std::set<std::string>& output) {
+  if (!name.starts_with(kManifestStart)) return false;
+  const std::size_t end = name.find('/', kManifestStart.size());
+  const auto* const layer =
+      from.findTypedAttribute<Imf::StringAttribute>(name.substr(0, end) + std::string(kManifestName));
+  if (layer == nullptr || layer->value().empty()) return false;
+  const auto first = output.lower_bound(layer->value());
+  return first == output.end() || !first->starts_with(layer->value());
+}
+
+/// The view that a channel is of, among others than the default: the last but one part of its name.
+std::string view_of(std::string_view channel) {
+  const std::size_t last = channel.rfind('.');
+  if (last == std::string_view::npos || last == 0) return {};
+  const std::size_t before = channel.rfind('.', last - 1);
+  const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+  return std::string(channel.substr(first, last - first));
+}
+
+/// The views of a file, the default one first, of which the output has channels; none where its plain R, G,
+/// B are of another view than the default.
+std::vector<std::string> remaining_views(const std::vector<std::string>& views, const AttributeRules& rules) {
+  if (views.empty() || (!rules.view.empty() && rules.view != views[0] &&
+                        std::find(views.begin(), views.end(), rules.view) != views.end())) {
+    return {};
+  }
+  std::vector<std::string> out = {views[0]};
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    const bool there = std::any_of(rules.channels.begin(), rules.channels.end(),
+                                   [&](const std::string& channel) { return view_of(channel) == views[i]; });
+    if (there) out.push_back(views[i]);
+  }
+  return out;
+}
+
+/// A text without the words in which maketx describes the pixels, where files have no place for attributes.
+std::string without_hints(const std::string& text) {
+  constexpr std::string_view kHints[] = {
+      "oiio:SHA-1=", "SHA-1=", "oiio:AverageColor=", "oiio:ConstantColor="};
+  std::string out = text;
+  for (const std::string_view hint : kHints) {
+    for (std::size_t at = out.find(hint); at != std::string::npos; at = out.find(hint)) {
+      const std::size_t end = std::min(out.find_first_of(" \n", at), out.size());
+      out.erase(at, end - at);
+      if (at > 0 && out[at - 1] == ' ') out.erase(at - 1, 1);
+    }
+  }
+  return out;
+}
+
+enum class Fate { kKept, kLeftOut, kMadeAnew };
+
+Fate fate_of(const Imf::Header& from, const std::string& name, const Imf::Attribute& attribute,
+             const AttributeRules& rules) {
+  if (std::find(rules.replaced.begin(), rules.replaced.end(), name) != rules.replaced.end()) {
+    return Fate::kMadeAnew;
+  }
+  const bool spectra_stay = rules.change == PixelChange::kAverage;
+  switch (described_by(name, attribute.typeName())) {
+    case Describes::kStorage:
+      return Fate::kMadeAnew;
+    case Describes::kPixels:
+      return Fate::kLeftOut;
+    case Describes::kPicture:
+      // The thumbnail alone shows samples; the others say how they are meant.
+      if (rules.change == PixelChange::kAverage) {
+        return std::string_view(attribute.typeName()) == "preview" ? Fate::kLeftOut : Fate::kKept;
+      }
+      return rules.change == PixelChange::kColor ? Fate::kLeftOut : Fate::kKept;
+    case Describes::kSpectra:
+      return spectra_stay ? Fate::kKept : Fate::kLeftOut;
+    case Describes::kColorSpace:
+      return rules.change == PixelChange::kColor ? Fate::kMadeAnew : Fate::kKept;
+    case Describes::kFrame:
+      break;
+  }
+  if (name == "multiView") {
+    const auto* const views = dynamic_cast<const Imf::StringVectorAttribute*>(&attribute);
+    return views != nullptr && !remaining_views(views->value(), rules).empty() ? Fate::kKept : Fate::kLeftOut;
+  }
+  const bool stale = belongs_to_one_alone(name, from.channels(), rules.channels) ||
+                     is_manifest_of_nothing(from, name, rules.channels);
+  return stale ? Fate::kLeftOut : Fate::kKept;
+}
+
+/// Attributes of which a part holds no more.
+bool set_changed(const Imf::Attribute& from, const AttributePlace& at, const AttributeRules& rules,
+                 exr_result_t& result) {
+  const std::string_view name = at.name;
+  const auto* const views = dynamic_cast<const Imf::StringVectorAttribute*>(&from);
+  const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&from);
+  if (name == "multiView" && views != nullptr) {
+    result = set_texts(remaining_views(views->value(), rules), at);
+  } else if ((name == "comments" || name == "ImageDescription") && text != nullptr) {
+    result = exr_attr_set_string(at.to, at.part, at.name, without_hints(text->value()).c_str());
   } else {
     return false;
   }
@@ -145,25 +206,25 @@ bool set_list(const Imf::Attribute& from, const Place& at, exr_result_t& result)
 }  // namespace
 
 exr_result_t copy_attributes(const Imf::Header& from, exr_context_t to, int part,
-                             const std::vector<std::string>& replaced) {
+                             const AttributeRules& rules) {
   for (auto it = from.begin(); it != from.end(); ++it) {
-    // How the source was made is nothing that the new file was made with.
-    if (describes_storage(it.name()) || it.name() == std::string_view(kSettingsAttribute)) continue;
-    if (std::find(replaced.begin(), replaced.end(), it.name()) != replaced.end()) continue;
     const Imf::Attribute& attribute = it.attribute();
-    if (must_stay_behind(attribute.typeName())) continue;
-    const Place at = {to, part, it.name()};
+    if (is_of_storage(attribute)) continue;
+    if (fate_of(from, it.name(), attribute, rules) != Fate::kKept) continue;
+    const AttributePlace at = {to, part, it.name()};
     exr_result_t result = EXR_ERR_SUCCESS;
-    if (!set_scalar(attribute, at, result) && !set_numbers(attribute, at, result) &&
-        !set_list(attribute, at, result)) {
-      MemoryStream stream;
-      attribute.writeValueTo(stream, Imf::EXR_VERSION);
-      result = exr_attr_set_user(to, part, it.name(), attribute.typeName(),
-                                 static_cast<int>(stream.bytes().size()), stream.bytes().data());
-    }
+    if (!set_changed(attribute, at, rules, result)) result = copy_value(attribute, at);
     if (result != EXR_ERR_SUCCESS) return result;
   }
   return EXR_ERR_SUCCESS;
+}
+
+std::vector<std::string> attributes_left_out(const Imf::Header& from, const AttributeRules& rules) {
+  std::vector<std::string> out;
+  for (auto it = from.begin(); it != from.end(); ++it) {
+    if (fate_of(from, it.name(), it.attribute(), rules) == Fate::kLeftOut) out.emplace_back(it.name());
+  }
+  return out;
 }
 
 }  // namespace spectile::io

@@ -37,6 +37,14 @@ int tile_side(unsigned side) {
   return static_cast<int>(std::clamp(side, 1U, static_cast<unsigned>(PartHeader::kMaxSide)));
 }
 
+/// True for "LAYER00.R": a layer's name, the number of a rank, a component.
+bool is_rank_of(std::string_view channel, std::string_view layer) {
+  if (!channel.starts_with(layer)) return false;
+  channel.remove_prefix(layer.size());
+  const std::size_t digits = std::min(channel.find_first_not_of("0123456789"), channel.size());
+  return digits > 0 && digits < channel.size() && channel[digits] == '.';
+}
+
 }  // namespace
 
 Result<void> check_sampling(const StoredChannel& channel, const std::string& path) {
@@ -74,6 +82,12 @@ PartHeader::PartHeader(const Imf::Header& header)
 PartHeader PartHeader::with_data_window(const PixelWindow& window) const {
   PartHeader out = *this;
   out.data_ = window;
+  return out;
+}
+
+PartHeader PartHeader::with_display_window(const PixelWindow& window) const {
+  PartHeader out = *this;
+  out.display_ = window;
   return out;
 }
 
@@ -120,6 +134,23 @@ std::vector<std::pair<std::string, std::string>> PartHeader::texts() const {
   for (auto it = imf_->begin(); it != imf_->end(); ++it) {
     const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
     if (text != nullptr && std::string_view(it.name()) != "type") out.emplace_back(it.name(), text->value());
+  }
+  return out;
+}
+
+std::vector<std::string> PartHeader::object_ids() const {
+  std::vector<std::string> layers;
+  for (const auto& [name, layer] : texts()) {
+    if (name.starts_with(kManifestStart) && name.ends_with(kManifestName) && !layer.empty()) {
+      layers.push_back(layer);
+    }
+  }
+  std::vector<std::string> out;
+  for (const StoredChannel& channel : channels_) {
+    const bool ranked = std::any_of(layers.begin(), layers.end(), [&](const std::string& layer) {
+      return is_rank_of(channel.name, layer);
+    });
+    if (ranked || channel.type == SampleType::kUint32) out.push_back(channel.name);
   }
   return out;
 }

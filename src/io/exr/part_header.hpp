@@ -48,6 +48,11 @@ constexpr SampleType readable_type(SampleType stored) {
   return stored == SampleType::kHalf ? SampleType::kHalf : SampleType::kFloat;
 }
 
+/// Names of the attributes in which a Cryptomatte layer says its name: "cryptomatte/KEY/name".
+/// Source: Friedman, Jones, Cryptomatte Specification 1.2.
+inline constexpr std::string_view kManifestStart = "cryptomatte/";
+inline constexpr std::string_view kManifestName = "/name";
+
 /// A channel as it is stored.
 struct StoredChannel {
   std::string name;
@@ -88,8 +93,9 @@ class PartHeader {
   /// Of the data window.
   int width() const noexcept { return data_.width(); }
   int height() const noexcept { return data_.height(); }
-  /// The same header with another data window.
+  /// The same header with another data window, or another display window.
   PartHeader with_data_window(const PixelWindow& window) const;
+  PartHeader with_display_window(const PixelWindow& window) const;
 
   bool deep() const noexcept { return deep_; }
   /// None for scanlines.
@@ -114,6 +120,9 @@ class PartHeader {
   std::vector<std::pair<std::string, std::string>> texts() const;
   /// True if there is an attribute of this name, whatever its type.
   bool has_attribute(const std::string& name) const;
+  /// Names of the channels whose samples name objects, so that no arithmetic makes sense of them: integers,
+  /// and the ranks of Cryptomatte layers, ids beside the coverage that belongs to each.
+  std::vector<std::string> object_ids() const;
   /// The attribute chromaticities.
   std::optional<Primaries> chromaticities() const;
 

@@ -38,7 +38,7 @@ void CompactEvaluator::piece(const kernels::KernelTable& kernels, const Piece& p
     }
   }
   const float* const c[3] = {rows[0], rows[1], rows[2]};
-  rows_.expand_rows(kernels, c, rows_.has_scale() ? rows[3] : nullptr, out, false, piece.n);
+  rows_.expand_rows(kernels, c, planes_.size() > 3 ? rows[3] : nullptr, out, false, piece.n);
   for (std::size_t i = 0; i < piece.n && any_bad; ++i) {
     for (std::size_t b = 0; b < rows_.count() && bad[i]; ++b) {
       static_cast<float*>(out[b])[i] = std::numeric_limits<float>::quiet_NaN();

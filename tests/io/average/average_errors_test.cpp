@@ -12,22 +12,6 @@ using AverageErrors = test::AverageFiles;
 using test::kPlain;
 using test::weighted;
 
-TEST_F(AverageErrors, IntegersMustAgree) {
-  test::Picture other = render(1);
-  other.planes.at("id").set(other.index(30, 25), 77);
-  other.planes.at("id").set(other.index(2, 26), 78);
-  const std::string a = write("a.exr", render(0));
-  const std::string b = write("b.exr", render(2));
-  const std::string c = write("c.exr", other);
-  EXPECT_EQ(average({a, b}).planes.at("id"), render(0).planes.at("id"));
-  for (const int threads : {1, 2}) {
-    AverageOptions options;
-    options.threads = threads;
-    expect_error({a, b, c, c}, options, ErrorCode::kBadFile,
-                 {c + ": channel \"id\" is 77 at 30,25, but 1000000006 in " + a});
-  }
-}
-
 TEST_F(AverageErrors, ThatDifferAreNamedWithWhatDiffers) {
   const std::string a = write("a.exr", render(0));
   const auto differs = [&](const std::string& name, test::Picture picture, const std::string& what) {
@@ -36,8 +20,8 @@ TEST_F(AverageErrors, ThatDifferAreNamedWithWhatDiffers) {
   };
   test::Picture wider = test::blank(38, 41);
   test::add_rgb_noise(wider, Imf::FLOAT);
-  differs("wide.exr", wider, "is 38 x 41 pixels, but ");
-  differs("moved.exr", render(0, Imf::FLOAT, {1, 0}), "its data window is 1,0 to 37,40, but ");
+  differs("wide.exr", wider, "its display window is 0,0 to 37,40, but ");
+  differs("moved.exr", render(0, Imf::FLOAT, {1, 0}), "its display window is 1,0 to 37,40, but ");
   test::Picture shown = render(0);
   shown.header.displayWindow().max.x = 99;
   differs("shown.exr", shown, "its display window is 0,0 to 99,40, but ");
@@ -84,7 +68,7 @@ TEST_F(AverageErrors, ThatCannotBeAveragedAreErrors) {
                {"chroma.exr: channel \"RY\" is subsampled 2 x 2"});
 }
 
-TEST_F(AverageErrors, PartsAreCounted) {
+TEST_F(AverageErrors, PartsAreAsManyAsTheFirstOnes) {
   test::Picture picture = render(0);
   std::vector<Imf::Header> headers(2, picture.header);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -100,7 +84,7 @@ TEST_F(AverageErrors, PartsAreCounted) {
     }
   }
   expect_error({write("a.exr", picture), folder_ / "parts.exr"}, kPlain, ErrorCode::kBadFile,
-               {"parts.exr: has 2 parts"});
+               {"parts.exr: has 2 parts, but ", "a.exr has 1"});
 }
 
 TEST_F(AverageErrors, CarryTheFirstOnesAttributesAndTheirOwn) {

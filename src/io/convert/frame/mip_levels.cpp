@@ -17,6 +17,16 @@ constexpr std::size_t kKeptBytes = std::size_t{64} << 20;
 // For the lines of the image that are averaged at once, and for a strip of a level.
 constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
 
+// Samples of a batch that are worth more than one thread.
+constexpr std::size_t kWorthThreads = std::size_t{1} << 18;
+
+/// Bytes of a line of a strip, whose rows are padded to whole blocks.
+std::size_t line_bytes(const std::vector<PlaneSpec>& planes, int width) {
+  std::size_t bytes = 0;
+  for (const PlaneSpec& plane : planes) bytes += plane.sample_bytes();
+  return bytes * blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
+}
+
 int fitting_lines(std::size_t line_bytes, int most) {
   const std::size_t lines = kBatchBytes / std::max<std::size_t>(line_bytes, 1);
   return static_cast<int>(std::clamp<std::size_t>(lines, 1, static_cast<std::size_t>(most)));
@@ -39,7 +49,7 @@ void store(const double* row, std::size_t n, std::byte* out) {
 class LevelMaker : public LineJob {
  public:
   LevelMaker(FilteredJob& job, const ExrWriter& writer, std::size_t slots, int strip_lines,
-             const ImageOptions& options)
+             const ImageOptions& options, const std::vector<std::string>& nearest)
       : job_(job),
         writer_(writer),
         options_(options),
@@ -51,10 +61,9 @@ class LevelMaker : public LineJob {
     for (const auto& [plane, spec] : job.passing()) {
       planes_.push_back(spec);
       passing_.push_back(plane);
-      pixel_bytes_ += spec.sample_bytes();
+      picked_.push_back(std::find(nearest.begin(), nearest.end(), spec.name) != nearest.end());
     }
     planes_.resize(planes_.size() + rows_, {"", SampleType::kFloat});
-    pixel_bytes_ += rows_ * sizeof(float);
     stride_ = blocks_for(static_cast<std::size_t>(image_.width)) * kLanesPerBlock;
   }
 
@@ -68,7 +77,7 @@ class LevelMaker : public LineJob {
 
   /// Lines of the present level's strips.
   int strip_lines(int /*chunk_lines*/) const override {
-    return fitting_lines(pixel_bytes_ * static_cast<std::size_t>(writer_.width()), 256);
+    return fitting_lines(line_bytes(planes_, writer_.width()), 256);
   }
 
   /// Goes on to the writer's present level.
@@ -109,7 +118,10 @@ class LevelMaker : public LineJob {
  private:
   std::size_t bytes_from(int level) const {
     std::size_t bytes = 0;
-    for (; level < writer_.levels(); ++level) bytes += pixel_bytes_ * writer_.size(level).pixels();
+    for (; level < writer_.levels(); ++level) {
+      const LevelSize size = writer_.size(level);
+      bytes += line_bytes(planes_, size.width) * static_cast<std::size_t>(size.height);
+    }
     return bytes;
   }
 
@@ -133,7 +145,9 @@ class LevelMaker : public LineJob {
 
   /// First the rows of all lines, side by side; then each plane's averages, in the order of the lines.
   void take(int lines) {
-    const Execution execution = {options_.threads, 1};
+    // Of narrow images, batches are worth no threads: starting them took most of the time, and memory.
+    const std::size_t samples = static_cast<std::size_t>(lines) * stride_ * planes_.size();
+    const Execution execution = {samples < kWorthThreads ? 1 : options_.threads, 1};
     tiles::for_blocks(workers_, execution, [&](std::size_t first, std::size_t count) {
       for (std::size_t w = first; w < first + count; ++w) {
         const auto part = [&](std::size_t i) {
@@ -167,6 +181,11 @@ class LevelMaker : public LineJob {
       return;
     }
     const std::byte* const row = source_->row(passing_[plane], y);
+    if (picked_[plane]) {
+      return planes_[plane].type == SampleType::kHalf
+                 ? pick(plane, y, reinterpret_cast<const std::uint16_t*>(row))
+                 : pick(plane, y, reinterpret_cast<const std::uint32_t*>(row));
+    }
     switch (planes_[plane].type) {
       case SampleType::kHalf:
         return filters_[plane].add(y, reinterpret_cast<const std::uint16_t*>(row), emit);
@@ -177,14 +196,15 @@ class LevelMaker : public LineJob {
     }
   }
 
-  /// Integers, names of things most likely, have no averages.
-  void pick(std::size_t plane, int y, const std::uint32_t* row) {
+  /// Names of objects have no averages. Sample: as many bits.
+  template <class Sample>
+  void pick(std::size_t plane, int y, const Sample* row) {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const LevelSize size = tree_->levels()[i].size;
       const auto before = static_cast<int>(std::int64_t{y} * size.height / image_.height);
       for (int line = before; line < std::min(before + 2, size.height); ++line) {
         if (nearest(image_.height, size.height, line) != y) continue;
-        auto* const out = reinterpret_cast<std::uint32_t*>(targets_[i]->row(plane, line));
+        auto* const out = reinterpret_cast<Sample*>(targets_[i]->row(plane, line));
         for (int x = 0; x < size.width; ++x) out[x] = row[nearest(image_.width, size.width, x)];
       }
     }
@@ -204,7 +224,7 @@ class LevelMaker : public LineJob {
   std::size_t rows_;
   std::vector<PlaneSpec> planes_;     // of a level's strips
   std::vector<std::size_t> passing_;  // planes of the image's strips
-  std::size_t pixel_bytes_ = 0;
+  std::vector<bool> picked_;          // of these
   std::size_t stride_ = 0;
   FloatBuffer batch_;  // [line][row][x]
   int batch_lines_ = 1;
@@ -222,6 +242,19 @@ std::size_t filter_slots(const ImageOptions& options) {
   return options.mipmap ? static_cast<std::size_t>(tiles::thread_count(options.threads)) : 0;
 }
 
+std::vector<std::string> nearest_channels(const FilteredJob& job, const PartHeader& source) {
+  const std::vector<std::string> ids = source.object_ids();
+  std::vector<std::string> out;
+  for (const auto& [plane, spec] : job.passing()) {
+    const StoredChannel* const stored = source.find(spec.name);
+    // Integers that are read as numbers are a colour's.
+    const bool number = stored == nullptr || stored->type == SampleType::kUint32;
+    const bool names = !number && std::find(ids.begin(), ids.end(), spec.name) != ids.end();
+    if (names || spec.type == SampleType::kUint32) out.push_back(spec.name);
+  }
+  return out;
+}
+
 std::optional<std::array<int, 2>> tiles_of(const ImageOptions& options) {
   // Of OpenEXR's own mip-mapped samples, and of other tools that make textures.
   constexpr std::array kUsual = {64, 64};
@@ -230,8 +263,8 @@ std::optional<std::array<int, 2>> tiles_of(const ImageOptions& options) {
 }
 
 Result<void> write_levels(FilteredJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
-                          const ImageOptions& options) {
-  LevelMaker maker(job, writer, slots, strip_lines, options);
+                          const ImageOptions& options, const std::vector<std::string>& nearest) {
+  LevelMaker maker(job, writer, slots, strip_lines, options, nearest);
   SPECTILE_TRY(maker.prepare(writer, slots));
   for (int level = 1; level < writer.levels(); ++level) {
     writer.begin_level(level);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace spectile::io {
 /// A job whose output can have mip levels: it says what of a line is averaged, and packs the averages.
 class FilteredJob : public LineJob {
  public:
+  /// All planes of its strips.
+  virtual std::vector<PlaneSpec> strip_planes() const = 0;
+  /// A sample of a plane of its strips where there is no pixel; of floats, where it is not 0.
+  virtual float padding(std::size_t /*plane*/) const { return 0; }
   /// Planes of its strips that pass through, in the order of the level's strips, where they come first.
   virtual std::vector<std::pair<std::size_t, PlaneSpec>> passing() const = 0;
   /// Rows of floats that are averaged, which come after them. Asked for when level 0 is complete.
@@ -29,12 +34,17 @@ class FilteredJob : public LineJob {
 /// Slots that a job needs for filter_rows() beyond those of the conversion.
 std::size_t filter_slots(const ImageOptions& options);
 
+/// Names of the planes that pass through whose samples name objects of `source`: they are not averaged, the
+/// pixel nearest to the centre of a level's is taken.
+std::vector<std::string> nearest_channels(const FilteredJob& job, const PartHeader& source);
+
 /// The tiles that options ask for: mip levels come in tiles, of 64 x 64 where no others are asked for.
 std::optional<std::array<int, 2>> tiles_of(const ImageOptions& options);
 
 /// Writes all levels but the first, each in another pass over the job's strips, but for the last ones, which
-/// are made together in one pass as soon as they fit into memory. Errors: those of run_conversion().
+/// are made together in one pass as soon as they fit into memory. `nearest`: channels that are not averaged.
+/// Errors: those of run_conversion().
 Result<void> write_levels(FilteredJob& job, ExrWriter& writer, std::size_t slots, int strip_lines,
-                          const ImageOptions& options);
+                          const ImageOptions& options, const std::vector<std::string>& nearest);
 
 }  // namespace spectile::io

@@ -47,6 +47,8 @@ struct ImageJob {
   const ImageOptions& options;
   Refusal refusal;     // none where nothing forbids an output
   ImageReport report;  // what is known beforehand: bands, quantity, colour space, notes
+  /// Appends notes on what was found; none where nothing can be.
+  std::function<void(const LineStats&, std::vector<std::string>&)> remark = {};
 };
 
 /// Creates the output, runs the conversion, writes mip levels where the file has some, completes the file,

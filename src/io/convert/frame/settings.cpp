@@ -90,6 +90,10 @@ constexpr EnumName<NegativeInput> kNegatives[] = {{NegativeInput::kGamut, "gamut
 constexpr EnumName<GamutPolicy> kGamutPolicies[] = {
     {GamutPolicy::kClip, "clip"}, {GamutPolicy::kKeep, "keep"}, {GamutPolicy::kError, "stop"}};
 
+constexpr EnumName<AlphaMeaning> kAlphaMeanings[] = {{AlphaMeaning::kPremultiplied, "premultiplied"},
+                                                     {AlphaMeaning::kStraight, "straight"},
+                                                     {AlphaMeaning::kIgnored, "ignore"}};
+
 /// "; name=value" after what is there.
 class Line {
  public:
@@ -131,6 +135,7 @@ class Line {
     add("negative", enum_name(kNegatives, options.negative));
     add("out-of-gamut",
         options.out_of_gamut ? enum_name(kGamutPolicies, *options.out_of_gamut) : "by negative");
+    add("alpha", to_string(options.alpha));
     return *this;
   }
 
@@ -152,6 +157,10 @@ bool is_before(const timespec& a, const timespec& b) {
 }
 
 }  // namespace
+
+std::string_view to_string(AlphaMeaning meaning) {
+  return enum_name(kAlphaMeanings, meaning);
+}
 
 std::string settings_text(const UpsampleImageOptions& options) {
   Line line("upsample");

@@ -28,9 +28,10 @@ Result<void> ColorJob::prepare(const ExrWriter& writer, std::size_t slots) {
   writer_ = &writer;
   for (std::size_t i = 0; i < slots; ++i) {
     Work work;
-    SPECTILE_ASSIGN(work.color, ColorLine::create(source_.width()));
+    SPECTILE_ASSIGN(work.color, ColorLine::create(writer.width()));
     SPECTILE_ASSIGN(work.halves, FloatBuffer::create(work.color.padded / 2));
-    SPECTILE_ASSIGN(work.spectra, FloatBuffer::create(spectra_floats()));
+    SPECTILE_ASSIGN(work.spectra,
+                    FloatBuffer::create(spectra_floats(static_cast<std::size_t>(writer.width()))));
     works_.push_back(std::move(work));
   }
   return {};

@@ -29,14 +29,15 @@ class ColorJob : public FilteredJob {
     return source_.read(first_line, lines);
   }
   void line(std::size_t slot, const Strip& strip, int line, std::byte* packed, LineStats& stats) final;
+  std::vector<PlaneSpec> strip_planes() const final { return source_.planes(); }
   std::vector<std::pair<std::size_t, PlaneSpec>> passing() const final;
   std::size_t filtered_rows() const final { return colors_; }
   void filter_rows(std::size_t slot, const Strip& strip, int line, float* const* rows) final;
   void level_line(std::size_t slot, const Strip& strip, int line, std::byte* packed) final;
 
  protected:
-  /// Floats of work space for spectra that each slot needs.
-  virtual std::size_t spectra_floats() const = 0;
+  /// Floats of work space for spectra that each slot needs, for lines of so many pixels.
+  virtual std::size_t spectra_floats(std::size_t width) const = 0;
   float* spectra(std::size_t slot) noexcept { return works_[slot].spectra.data(); }
 
   /// Makes the colours of a line in the first rows of `color`, whose width is set. With `checks_only`, what

@@ -35,9 +35,7 @@ class ExpandJob : public io::FilteredJob {
         rows_(rows),
         options_(options),
         packer_(kernels, rows, options),
-        filter_(kernels, source.upsampler(), rows, packer_, options, false) {
-    padded_ = blocks_for(static_cast<std::size_t>(source.width())) * kLanesPerBlock;
-  }
+        filter_(kernels, source.upsampler(), rows, packer_, options, false) {}
 
   /// Output channels: what passes through, then the bands.
   std::vector<io::ChannelSpec> channels(const Bands& bands) const {
@@ -51,10 +49,11 @@ class ExpandJob : public io::FilteredJob {
 
   Result<void> prepare(const io::ExrWriter& writer, std::size_t slots) override {
     writer_ = &writer;
+    padded_ = blocks_for(static_cast<std::size_t>(writer.width())) * kLanesPerBlock;
     for (std::size_t i = 0; i < slots; ++i) {
       SPECTILE_ASSIGN(auto coefficients, FloatBuffer::create(4 * padded_));
       SPECTILE_ASSIGN(auto bands, packer_.work());
-      SPECTILE_ASSIGN(auto filtered, filter_.work(source_.width()));
+      SPECTILE_ASSIGN(auto filtered, filter_.work(writer.width()));
       works_.push_back({std::move(coefficients), std::move(bands), std::move(filtered)});
     }
     return {};
@@ -74,6 +73,11 @@ class ExpandJob : public io::FilteredJob {
     pass_through(strip, line, source_.coefficients(), packed);
     stats.clamped += packer_.line(work.bands, of, width, *writer_, passing_count(), packed);
     if (options_.mipmap) filter_.scan(of, width);
+  }
+
+  std::vector<io::PlaneSpec> strip_planes() const override { return source_.planes(); }
+  float padding(std::size_t plane) const override {
+    return plane < source_.coefficients() ? rows_.black()[plane] : 0;
   }
 
   std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
@@ -174,6 +178,7 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
     made.light = NamedLight{io::light_name_of(source->header()), *upsampler.options().light};
   }
   auto texts = io::method_attributes(upsampler, made, false);
+  io::pass_alpha_attribute(texts, source->header());
   io::add_layout_attributes(texts, upsampler.quantity(), bands);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(bands), std::move(texts), options,
                                            settings_text(options));

@@ -35,7 +35,9 @@ class ProjectJob : public io::ColorJob {
   }
 
  private:
-  std::size_t spectra_floats() const override { return source_.samples() * kLanesPerBlock * tile_blocks(); }
+  std::size_t spectra_floats(std::size_t /*width*/) const override {
+    return source_.samples() * kLanesPerBlock * tile_blocks();
+  }
 
   void make_colors(std::size_t slot, const Strip& strip, int line, io::ColorLine& color, LineStats& stats,
                    bool /*checks_only*/) override {
@@ -125,8 +127,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
                                            settings_text(options));
   // The output is linear sRGB or CIE, whatever space the input's preview was in.
   spec.replaced = io::method_attribute_names();
-  spec.replaced.insert(spec.replaced.end(),
-                       {"spectralLayoutVersion", "emissiveUnits", "chromaticities", "colorInteropID"});
+  spec.change = io::PixelChange::kColor;
   ImageReport known;
   known.bands = source->bands().count();
   known.quantity = source->quantity();

@@ -10,6 +10,7 @@
 #include "src/io/convert/jobs/color_job.hpp"
 #include "src/io/convert/sources/method_attributes.hpp"
 #include "src/io/convert/stages/color_stage.hpp"
+#include "src/io/convert/stages/straight_color.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
@@ -26,26 +27,33 @@ class RelightJob : public io::ColorJob {
       : ColorJob(source, 3, options.target, options, kernels),
         relighter_(relighter),
         options_(options),
-        stage_(source, relighter.upsampler(), options, kernels) {}
+        stage_(source, relighter.upsampler(), options, kernels),
+        straight_(source, relighter.upsampler(), options, kernels),
+        bands_(relighter.projector().bands().count()) {}
 
   const io::ColorStage& stage() const noexcept { return stage_; }
 
  private:
-  /// One block, for the computation by spectra.
-  std::size_t spectra_floats() const override {
-    return relighter_.projector().bands().count() * kLanesPerBlock;
+  /// One block, for the computation by spectra, and after it a line of scales.
+  std::size_t spectra_floats(std::size_t width) const override {
+    return (bands_ + (straight_.needed() ? blocks_for(width) : 0)) * kLanesPerBlock;
   }
 
   void make_colors(std::size_t slot, const Strip& strip, int line, io::ColorLine& color, LineStats& stats,
                    bool checks_only) override {
-    stage_.line(strip, line, color, stats);
+    const auto width = static_cast<std::size_t>(strip.width);
+    float* const scale = straight_.needed() ? spectra(slot) + bands_ * kLanesPerBlock : nullptr;
+    stage_.load(strip, line, color);
+    const io::ColorStage::Sanitized sanitized = stage_.sanitize(line, color, width, stats);
+    if (scale != nullptr) straight_.divide(strip, line, color.rows, scale, stats);
+    if (sanitized.may_be_outside) stage_.clip_to_gamut(line, color, width, stats);
     if (checks_only) return;
     float* const* rows = color.rows;
     const float* const rgb[3] = {rows[0], rows[1], rows[2]};
     if (options_.mode == RelightMode::kDirect) {
-      rows::relight(kernels(), relighter_, rgb, rows, color.padded);
+      rows::relight(kernels(), relighter_, rgb, rows, color.padded, scale);
     } else {
-      rows::relight_by_spectra(kernels(), relighter_, rgb, rows, spectra(slot), color.padded);
+      rows::relight_by_spectra(kernels(), relighter_, rgb, rows, spectra(slot), color.padded, scale);
     }
     // Luminance is the second of XYZ.
     if (options_.target == ColorTarget::kLuminance) {
@@ -56,6 +64,8 @@ class RelightJob : public io::ColorJob {
   const Relighter& relighter_;
   const RelightImageOptions& options_;
   io::ColorStage stage_;
+  io::StraightColor straight_;
+  std::size_t bands_;
 };
 
 Result<ImageReport> relight_file(const std::string& input, const std::string& output,
@@ -76,14 +86,17 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   spec.replaced = io::method_attribute_names();
-  spec.replaced.insert(spec.replaced.end(), {"chromaticities", "colorInteropID", "spectileSeenUnder"});
+  spec.replaced.emplace_back("spectileSeenUnder");
+  spec.change = io::PixelChange::kColor;
+  spec.view = source->view();
   ImageReport known;
   known.bands = options.bands.count();
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  return io::run_image_job({job, output, std::move(spec), options, refusal, std::move(known)});
+  return io::run_image_job(
+      {job, output, std::move(spec), options, refusal, std::move(known), io::note_above_alpha});
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/convert/stages/color_stage.hpp"
 #include "src/io/convert/stages/line_solver.hpp"
+#include "src/io/convert/stages/straight_color.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
@@ -45,7 +46,8 @@ class UpsampleJob : public io::FilteredJob {
         upsampler_(upsampler),
         options_(options),
         stage_(source, upsampler, options, kernels),
-        solver_(stage_, upsampler, kernels, options.skip, pixels_of(source)),
+        straight_(source, upsampler, options, kernels),
+        solver_(stage_, upsampler, kernels, options.skip, pixels_of(source), straight_.needed()),
         packer_(kernels, rows, options),
         filter_(kernels, upsampler, rows, packer_, options, options.store == Store::kCoefficients) {}
 
@@ -58,7 +60,7 @@ class UpsampleJob : public io::FilteredJob {
       out.push_back({plane.name, plane.type});
     }
     if (options_.store == Store::kCoefficients) {
-      for (const std::string& name : io::coefficient_channels(upsampler_))
+      for (const std::string& name : io::coefficient_channels(upsampler_, straight_.needed()))
         out.push_back({name, SampleType::kFloat});
       return out;
     }
@@ -70,11 +72,11 @@ class UpsampleJob : public io::FilteredJob {
     writer_ = &writer;
     for (std::size_t i = 0; i < slots; ++i) {
       UpsampleWork work;
-      SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(source_.width()));
-      work.masked.resize(static_cast<std::size_t>(source_.width()));
-      SPECTILE_ASSIGN(work.solving, solver_.work(source_.width()));
+      SPECTILE_ASSIGN(work.rgb, io::ColorLine::create(writer.width()));
+      work.masked.resize(static_cast<std::size_t>(writer.width()));
+      SPECTILE_ASSIGN(work.solving, solver_.work(writer.width()));
       SPECTILE_ASSIGN(work.bands, packer_.work());
-      SPECTILE_ASSIGN(work.filtered, filter_.work(source_.width()));
+      SPECTILE_ASSIGN(work.filtered, filter_.work(writer.width()));
       works_.push_back(std::move(work));
     }
     return {};
@@ -117,6 +119,12 @@ class UpsampleJob : public io::FilteredJob {
     }
   }
 
+  std::vector<io::PlaneSpec> strip_planes() const override {
+    std::vector<io::PlaneSpec> out = source_.planes();
+    if (mask_.adds_plane()) out.push_back({"", SampleType::kFloat});
+    return out;
+  }
+
   std::vector<std::pair<std::size_t, io::PlaneSpec>> passing() const override {
     std::vector<std::pair<std::size_t, io::PlaneSpec>> out;
     for (const io::PlaneSpec& plane : source_.planes()) out.emplace_back(out.size(), plane);
@@ -147,14 +155,18 @@ class UpsampleJob : public io::FilteredJob {
   }
 
  private:
-  /// A line's RGB as the method takes it.
+  /// A line's RGB as the method takes it, straight where it has to be.
   io::ColorStage::Sanitized sanitize(UpsampleWork& work, const Strip& strip, int line,
                                      LineStats& stats) const {
     const auto width = static_cast<std::size_t>(strip.width);
     work.rgb.set_width(width);
     stage_.load(strip, line, work.rgb);
     stats.masked += mask_.line(strip, line, work.masked.data());
-    return stage_.sanitize(line, work.rgb, width, stats);
+    const io::ColorStage::Sanitized out = stage_.sanitize(line, work.rgb, width, stats);
+    if (straight_.needed()) {
+      straight_.divide(strip, line, work.rgb.rows, work.solving.scale.data(), stats);
+    }
+    return out;
   }
 
   static std::uint64_t pixels_of(const io::RgbSource& source) {
@@ -205,6 +217,7 @@ class UpsampleJob : public io::FilteredJob {
   std::uint64_t masked_colored_ = 0;
   int counted_lines_ = 0;
   io::ColorStage stage_;
+  io::StraightColor straight_;
   io::LineSolver solver_;
   io::BandPacker packer_;
   io::BandFilter filter_;
@@ -231,22 +244,24 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   UpsampleJob job(*source, mask, upsampler, rows, options, setup.kernels);
   const bool coefficients = options.store == Store::kCoefficients;
   auto texts = io::method_attributes(upsampler, options, coefficients);
+  if (source->alpha()) io::add_alpha_attribute(texts, options.alpha);
   if (!coefficients) io::add_layout_attributes(texts, options.quantity, options.bands);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   spec.replaced = io::spectral_attribute_names();
+  spec.view = source->view();
   ImageReport known;
   known.bands = options.bands.count();
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  SPECTILE_ASSIGN(auto report,
-                  io::run_image_job({job, output, std::move(spec), options, refusal, std::move(known)}));
+  SPECTILE_ASSIGN(auto report, io::run_image_job({job, output, std::move(spec), options, refusal,
+                                                  std::move(known), io::note_above_alpha}));
   if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
-    report.notes.push_back(
-        fmt::format("{} pixel{} of alpha 0 with a colour: they become black; --mask none keeps them",
-                    job.masked_colored(), job.masked_colored() == 1 ? "" : "s"));
+    report.notes.push_back(fmt::format(
+        "{} pixel{} of alpha 0 with a colour: they become black; without --mask alpha they keep it",
+        job.masked_colored(), job.masked_colored() == 1 ? "" : "s"));
   }
   return report;
 }

@@ -49,7 +49,8 @@ Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_p
 
 Result<void> CoefficientSource::choose_channels() {
   const std::string& path = input_->path();
-  for (const std::string& name : coefficient_channels(*upsampler_)) {
+  const bool straight = has_straight_coefficients(header(), *upsampler_);
+  for (const std::string& name : coefficient_channels(*upsampler_, straight)) {
     const StoredChannel* const channel = header().find(name);
     if (channel == nullptr)
       return make_error(ErrorCode::kBadFile, "{}: channel \"{}\" is missing", path, name);

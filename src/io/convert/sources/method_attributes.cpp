@@ -13,6 +13,8 @@ namespace {
 
 // Says which rules the coefficients follow: lambda is (wavelength - 550 nm) / 150 nm.
 constexpr const char* kLayout = "1.0";
+// Says what alpha means to spectra and coefficients.
+constexpr const char* kAlpha = "spectileAlpha";
 
 std::string bands_text(const Bands& bands) {
   std::string out;
@@ -57,16 +59,29 @@ Error damaged(const std::string& path, const char* name) {
 
 }  // namespace
 
-std::vector<std::string> coefficient_channels(const Upsampler& upsampler) {
+std::vector<std::string> coefficient_channels(const Upsampler& upsampler, bool premultiplied) {
   std::vector<std::string> names = {"spectile.c0", "spectile.c1", "spectile.c2"};
-  if (rows::has_scale(upsampler)) names.emplace_back("spectile.scale");
+  if (rows::has_scale(upsampler) || premultiplied) names.emplace_back("spectile.scale");
   return names;
 }
 
+bool has_straight_coefficients(const PartHeader& header, const Upsampler& upsampler) {
+  return !rows::mixes_bases(upsampler) && !rows::has_scale(upsampler) &&
+         header.text(kAlpha) == to_string(AlphaMeaning::kPremultiplied);
+}
+
+void add_alpha_attribute(TextAttributes& texts, AlphaMeaning meaning) {
+  texts.emplace_back(kAlpha, std::string(to_string(meaning)));
+}
+
+void pass_alpha_attribute(TextAttributes& texts, const PartHeader& source) {
+  if (auto text = source.text(kAlpha)) texts.emplace_back(kAlpha, *std::move(text));
+}
+
 std::vector<std::string> method_attribute_names() {
-  return {"spectileMethod",       "spectileLight",        "spectileObserver",
-          "spectileQuantity",     "spectileBands",        "spectileLightSamples",
-          "spectileKeepNegative", "spectileCoefficients", kPlanAttribute};
+  return {"spectileMethod", "spectileLight",        "spectileObserver",     "spectileQuantity",
+          "spectileBands",  "spectileLightSamples", "spectileKeepNegative", "spectileCoefficients",
+          kAlpha,           kPlanAttribute};
 }
 
 TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions& options,
@@ -111,6 +126,12 @@ Result<Upsampler> upsampler_of(const PartHeader& header, const std::string& path
   if (const auto keep = header.text("spectileKeepNegative")) {
     if (keep != "yes") return damaged(path, "spectileKeepNegative");
     options.negative = NegativeSamples::kKeep;
+  }
+  if (const auto alpha = header.text(kAlpha)) {
+    const bool known = alpha == to_string(AlphaMeaning::kPremultiplied) ||
+                       alpha == to_string(AlphaMeaning::kStraight) ||
+                       alpha == to_string(AlphaMeaning::kIgnored);
+    if (!known) return damaged(path, kAlpha);
   }
   const std::string light_name = light_name_of(header);
   if (light_name.empty()) return damaged(path, "spectileLight");

@@ -10,8 +10,16 @@
 
 namespace spectile::io {
 
-/// Channels of a method's coefficients: spectile.c0, .c1, .c2, and .scale where it has one.
-std::vector<std::string> coefficient_channels(const Upsampler& upsampler);
+/// Channels of a method's coefficients: spectile.c0, .c1, .c2, and .scale where it has one, or where
+/// `premultiplied` colours have.
+std::vector<std::string> coefficient_channels(const Upsampler& upsampler, bool premultiplied);
+/// True if a part's coefficients are of straight colours, each with a scale that makes it premultiplied.
+bool has_straight_coefficients(const PartHeader& header, const Upsampler& upsampler);
+
+/// Appends what alpha means to the spectra: spectileAlpha, "premultiplied", "straight" or "ignore".
+void add_alpha_attribute(TextAttributes& texts, AlphaMeaning meaning);
+/// Appends that of the source, where it has one.
+void pass_alpha_attribute(TextAttributes& texts, const PartHeader& source);
 
 /// Names of the attributes below, which a new file does not take over from its source.
 std::vector<std::string> method_attribute_names();

@@ -27,6 +27,9 @@ class PixelMask {
   /// changed when its last line is read; kOutOfMemory.
   Result<std::uint64_t> apply(Strip& strip);
 
+  /// True if strips get a plane of floats from it, after their own.
+  bool adds_plane() const noexcept { return file_ != nullptr; }
+
   /// Sets masked[x] to 1 or 0 for each pixel of a line, and returns how many are.
   std::uint64_t line(const Strip& strip, int line, std::uint8_t* masked) const;
 

@@ -25,6 +25,8 @@ class RgbSource : public ImageSource {
                                                  const std::optional<RgbSpace>& stated = {});
 
   const RgbSpace& color_space() const noexcept { return space_; }
+  /// The view that the colours are of; empty where the file is not stereo.
+  const std::string& view() const noexcept { return colors_.view; }
   /// The plane of the colours' own alpha, where they have one.
   std::optional<std::size_t> alpha() const noexcept { return alpha_; }
 

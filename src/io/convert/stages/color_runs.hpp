@@ -16,11 +16,12 @@ struct ColorRun {
 };
 
 /// Finds the runs of a line, and counts its black pixels and those of constant runs. Black is 0 with all its
-/// bits, constant what has the same bits.
+/// bits, constant what has the same bits, of the scale too where there is one. The scale of black is 1.
 struct FoundRuns {
   std::uint64_t black = 0;
   std::uint64_t constant = 0;
 };
-FoundRuns find_runs(const float* const rgb[3], std::size_t width, std::vector<ColorRun>& runs);
+FoundRuns find_runs(const float* const rgb[3], const float* scale, std::size_t width,
+                    std::vector<ColorRun>& runs);
 
 }  // namespace spectile::io

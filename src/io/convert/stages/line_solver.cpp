@@ -18,12 +18,13 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
-                       const kernels::KernelTable& kernels, bool skip, std::uint64_t pixels)
+                       const kernels::KernelTable& kernels, bool skip, std::uint64_t pixels, bool scaled)
     : stage_(stage),
       upsampler_(upsampler),
       kernels_(kernels),
       mixes_(rows::mixes_bases(upsampler)),
-      skip_(skip) {
+      skip_(skip),
+      scaled_(scaled) {
   if (mixes_ || !skip) return;
   table_ = std::make_unique<rows::ColorTable>(kernels, upsampler, stage.out_of_gamut(), pixels);
   alignas(64) float rows[4][kLanesPerBlock] = {};
@@ -56,14 +57,14 @@ LineCoefficients LineSolver::line(Work& work, const ColorLine& rgb, std::size_t 
   } else {
     // Methods whose coefficients are the RGB clip a line quicker than its colours can be looked up.
     if (mixes_ && may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
-    const FoundRuns found = find_runs(rgb.rows, width, work.runs);
+    const FoundRuns found = find_runs(rgb.rows, scaled_ ? work.scale.data() : nullptr, width, work.runs);
     stats.black += found.black;
     stats.constant += found.constant;
     if (!mixes_) by_runs(work, rgb, width, line, stats);
   }
   if (mixes_) return {{rgb.rows[0], rgb.rows[1], rgb.rows[2]}, nullptr};
   const rows::Coefficients out = at(work, 0);
-  return {{out.c[0], out.c[1], out.c[2]}, out.scale};
+  return {{out.c[0], out.c[1], out.c[2]}, scaled_ ? work.scale.data() : out.scale};
 }
 
 rows::Coefficients LineSolver::at(Work& work, std::size_t first) const {

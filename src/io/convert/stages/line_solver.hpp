@@ -19,16 +19,17 @@ class LineSolver {
   /// Work space of one slot.
   struct Work {
     ColorLine coefficients;  // of no rows where they are the RGB
-    FloatBuffer scale;
+    FloatBuffer scale;       // of the method, or, where lines come with scales, those
     std::vector<std::uint64_t> unsolved;
     std::vector<std::uint8_t> outside;
     std::optional<rows::ColorTable::Batch> batch;
     std::vector<ColorRun> runs;  // of the last line; one that is all computed where nothing is skipped
   };
 
-  /// All must outlive it. `pixels`: of the image.
+  /// All must outlive it. `pixels`: of the image. `scaled`: lines are straight colours, whose scales lie in
+  /// the work space; for methods that have no scale of their own.
   LineSolver(const ColorStage& stage, const Upsampler& upsampler, const kernels::KernelTable& kernels,
-             bool skip, std::uint64_t pixels);
+             bool skip, std::uint64_t pixels, bool scaled = false);
 
   /// Errors: kOutOfMemory.
   Result<Work> work(int width) const;
@@ -51,6 +52,7 @@ class LineSolver {
   const kernels::KernelTable& kernels_;
   bool mixes_ = false;
   bool skip_ = false;
+  bool scaled_ = false;
   std::unique_ptr<rows::ColorTable> table_;  // null for methods whose coefficients are the RGB
   float black_[4] = {0, 0, 0, 0};
 };

@@ -153,6 +153,7 @@ TEST_F(Mipmap, WhatIsMaskedCountsAsBlack) {
   for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
     UpsampleImageOptions options;
     options.method = method;
+    options.masking = Masking::kAlpha;
     options.pixel = SampleType::kFloat;
     options.mipmap = true;
     const auto report = upsample_image(in_, folder_ / "out.exr", options);

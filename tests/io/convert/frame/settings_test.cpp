@@ -125,6 +125,8 @@ void add_method_options(Texts& texts, const Options& usual) {
           o.input_space = *rgb_space("srgb");
           o.input_space->relative_to_d65 = !o.input_space->relative_to_d65;
         }},
+       {"straight", [](Options& o) { o.alpha = AlphaMeaning::kStraight; }},
+       {"no alpha", [](Options& o) { o.alpha = AlphaMeaning::kIgnored; }},
        {"layer", [](Options& o) { o.channels.layer = "left"; }},
        {"layer that looks like more", [](Options& o) { o.channels.layer = "left\"; store=\"x\n"; }},
        {"layer with a backslash", [](Options& o) { o.channels.layer = "left\\\"; store=\\\"x\\x0a"; }}});

@@ -133,7 +133,12 @@ TEST(PassThrough, AttributesOfEveryTypeAreTheSame) {
   for (const char* name : {"spectral.exr", "back.exr"}) {
     const Imf::Header header = test::read_picture(folder / name).header;
     expect_same_attributes(attributes, header, name);
-    EXPECT_EQ(test::attribute_bytes(header["preview"]), test::attribute_bytes(picture.header["preview"]));
+    // The thumbnail shows the colours, which the second has anew.
+    const bool shown = header.find("preview") != header.end();
+    EXPECT_EQ(shown, name == std::string_view("spectral.exr"));
+    if (shown) {
+      EXPECT_EQ(test::attribute_bytes(header["preview"]), test::attribute_bytes(picture.header["preview"]));
+    }
     EXPECT_EQ(header.pixelAspectRatio(), 1.25F);
     EXPECT_EQ(header.screenWindowWidth(), 0.45F);
     EXPECT_EQ(header.screenWindowCenter(), Imath::V2f(0.5F, -0.25F));

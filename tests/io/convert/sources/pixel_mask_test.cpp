@@ -19,6 +19,7 @@ class PixelMasks : public testing::Test {
     test::add_rgb_noise(picture_, Imf::HALF);
     options_.bands = *Bands::uniform(400, 700, 25);
     options_.input_space = RgbSpace();  // stated, so that notes are of masks only
+    options_.masking = Masking::kAlpha;
   }
 
   /// True if every band is 0 at a pixel.
@@ -101,7 +102,7 @@ TEST_F(PixelMasks, AlphaZeroIsBlackInEveryType) {
     picture_.add("A", type, [](int x, int y) { return corner(x, y) ? 0 : 1; });
     const ImageReport report = expect_masked(corner);
     EXPECT_THAT(report.notes, testing::ElementsAre(HasSubstr("1400 pixels of alpha 0 with a colour")));
-    EXPECT_THAT(report.notes[0], HasSubstr("--mask none keeps them"));
+    EXPECT_THAT(report.notes[0], HasSubstr("without --mask alpha they keep it"));
   }
 }
 
@@ -110,7 +111,8 @@ TEST_F(PixelMasks, MinusZeroIsZero) {
   expect_masked(corner);
 }
 
-TEST_F(PixelMasks, NoneKeepsThem) {
+TEST_F(PixelMasks, NoneKeepsThemAsByDefault) {
+  EXPECT_EQ(UpsampleImageOptions().masking, Masking::kNone);
   picture_.add("A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
   options_.masking = Masking::kNone;
   EXPECT_TRUE(expect_masked([](int, int) { return false; }).notes.empty());
