@@ -47,25 +47,28 @@ std::uint32_t hash_class(std::uint32_t four_bytes) {
   return four_bytes & 15;
 }
 
-/// Index of the place for a chunk's stream object. A block starts at the chunk's first byte, and, where that
-/// is 0 or 255, after its repetitions too.
+/// Index of the place for a chunk's stream object.
 std::size_t place_for(const std::byte* places, const std::uint8_t* in, std::size_t n) {
-  const std::uint8_t* repeated = in;
-  while ((in[0] == 0 || in[0] == 255) && repeated != in + n && *repeated == in[0]) ++repeated;
   std::uint32_t taken = 0;
-  for (const std::uint8_t* start : {in, repeated}) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      std::uint32_t four_bytes = 0;
-      if (start + i + sizeof(four_bytes) > in + n) continue;
-      std::memcpy(&four_bytes, start + i, sizeof(four_bytes));
-      taken |= 1U << hash_class(four_bytes);
-    }
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint32_t four_bytes = 0;
+    if (i + sizeof(four_bytes) > n) continue;
+    std::memcpy(&four_bytes, in + i, sizeof(four_bytes));
+    taken |= 1U << hash_class(four_bytes);
   }
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const auto address = reinterpret_cast<std::uintptr_t>(places + i * kPlaceBytes);
     if ((taken >> hash_class(static_cast<std::uint32_t>(address >> 16)) & 1) == 0) return i;
   }
-  return 0;  // not reached: sixteen neighbours have ten classes or more, and six are taken at most
+  return 0;  // not reached: sixteen neighbours have eight classes or more, and three are taken at most
+}
+
+/// True for a chunk that starts with a long run of 0 or 255, which ISA-L writes as a block of its own: the
+/// next one starts after it, where these places do not help.
+bool starts_with_a_run(const std::uint8_t* in, std::size_t n) {
+  constexpr std::size_t kRun = 4096;
+  if (n < kRun || (in[0] != 0 && in[0] != 255)) return false;
+  return std::all_of(in, in + kRun, [&](std::uint8_t v) { return v == in[0]; });
 }
 
 }  // namespace
@@ -79,7 +82,6 @@ ZipEncoder::ZipEncoder(int level) {
     work_.resize(ISAL_DEF_LVL1_DEFAULT);
     // The places start at multiples of 64 KiB, and are touched when they are used.
     places_ = std::make_unique_for_overwrite<std::byte[]>((kPlaces + 1) * kPlaceBytes + sizeof(isal_zstream));
-    return;
   }
   compressor_.reset(libdeflate_alloc_compressor(level));
   if (compressor_ == nullptr) throw std::bad_alloc();
@@ -88,7 +90,8 @@ ZipEncoder::ZipEncoder(int level) {
 std::size_t ZipEncoder::deflate(std::size_t n) {
   auto* const in = reinterpret_cast<std::uint8_t*>(filtered_.data());
   auto* const out = reinterpret_cast<std::uint8_t*>(compressed_.data());
-  if (compressor_ != nullptr) return libdeflate_zlib_compress(compressor_.get(), in, n, out, n - 1);
+  if (places_ == nullptr || starts_with_a_run(in, n))
+    return libdeflate_zlib_compress(compressor_.get(), in, n, out, n - 1);
   // Zeros, here and in the hash table: matches with an earlier chunk's leftovers would make the bytes depend
   // on it.
   const std::size_t before = -reinterpret_cast<std::uintptr_t>(places_.get()) % kPlaceBytes;

@@ -27,9 +27,9 @@ class ZipEncoder {
   /// The size of the compressed form of `n` filtered bytes, or 0 where it is no smaller.
   std::size_t deflate(std::size_t n);
 
-  std::unique_ptr<libdeflate_compressor, Free> compressor_;  // null at level 1
-  std::vector<std::byte> work_;                              // of ISA-L
-  std::unique_ptr<std::byte[]> places_;                      // of ISA-L's stream
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;
+  std::vector<std::byte> work_;          // of ISA-L
+  std::unique_ptr<std::byte[]> places_;  // of ISA-L's stream; null but at level 1
   std::vector<std::byte> filtered_;
   std::vector<std::byte> compressed_;
 };

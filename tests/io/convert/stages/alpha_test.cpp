@@ -31,6 +31,7 @@ class Alpha : public testing::Test {
     up_.method = Method::kSigmoid;
     up_.bands = *Bands::uniform(400, 700, 25);
     up_.pixel = SampleType::kFloat;
+    up_.input_space = RgbSpace();  // stated, so that notes are of alpha only
   }
   ~Alpha() override { static_cast<void>(force_isa("")); }
 
