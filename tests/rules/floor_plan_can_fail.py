@@ -22,7 +22,6 @@ BROKEN_LINES = [
     ("OpenEXR", "src/film/add.cpp", "#include <OpenEXR/ImfHeader.h>"),
     ("OpenEXR", "bench/report/html.cpp", "#include <Imath/half.h>"),
     ("libdeflate", "src/io/exr/strips.cpp", "#include <libdeflate.h>"),
-    ("ISA-L", "src/io/exr/strips.cpp", "#include <isa-l/igzip_lib.h>"),
     ("Eigen", "src/upsampling/gamut.cpp", "#include <Eigen/Dense>"),
     ("CLI11", "bench/report/html.cpp", "#include <CLI/CLI.hpp>"),
     ("nlohmann-json", "src/io/film/film_file.cpp", "#include <nlohmann/json.hpp>"),

@@ -1,5 +1,5 @@
-// ZIP compression of one chunk: OpenEXR's byte filter; deflate by ISA-L at level 1, else by libdeflate. Both
-// are several times faster than the zlib that OpenEXR 3.1 uses.
+// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by libdeflate, which is several times
+// faster than the zlib that OpenEXR 3.1 uses and gives the same bytes on every processor.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,8 @@ class ZipEncoder {
   struct Free {
     void operator()(libdeflate_compressor* c) const noexcept;
   };
-  /// The size of the compressed form of `n` filtered bytes, or 0 where it is no smaller.
-  std::size_t deflate(std::size_t n);
 
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
-  std::vector<std::byte> work_;          // of ISA-L
-  std::unique_ptr<std::byte[]> places_;  // of ISA-L's stream; null but at level 1
   std::vector<std::byte> filtered_;
   std::vector<std::byte> compressed_;
 };
