@@ -90,13 +90,8 @@ std::string description(const ExrInput& input, const ColorChannels& channels) {
 }
 
 std::string view_of(std::string_view channel, const std::vector<std::string>& views) {
-  const std::string prefix = prefix_of(channel);
-  if (prefix.empty()) return {};
-  const std::string_view whole = std::string_view(prefix).substr(0, prefix.size() - 1);
-  for (const std::string& view : views) {
-    if (whole == view || whole.ends_with("." + view)) return view;
-  }
-  return {};
+  const std::string view = possible_view(channel);
+  return std::find(views.begin(), views.end(), view) != views.end() ? view : std::string();
 }
 
 std::vector<ColorChannels> color_sets(const ExrInput& input) {

@@ -92,7 +92,7 @@ std::optional<SpectralChannel> parse_layout(std::string_view name, const PartHea
   return channel;
 }
 
-/// Source: Mitsuba 0.6, src/libhdr/film "multichannel" and spectral EXR output, as its files have it.
+/// As spectral OpenEXR files of Mitsuba 0.6 name their channels.
 std::optional<SpectralChannel> parse_range(std::string_view name, const PartHeader& /*header*/) {
   SpectralChannel channel;
   channel.kind = SpectralKind::kEmissive;
@@ -106,7 +106,7 @@ std::optional<SpectralChannel> parse_range(std::string_view name, const PartHead
   return channel;
 }
 
-/// Source: Indigo Renderer's spectral EXR files.
+/// As spectral OpenEXR files of Indigo name their channels.
 std::optional<SpectralChannel> parse_indigo(std::string_view name, const PartHeader& /*header*/) {
   SpectralChannel channel;
   channel.kind = SpectralKind::kEmissive;
@@ -118,7 +118,8 @@ std::optional<SpectralChannel> parse_indigo(std::string_view name, const PartHea
   return channel;
 }
 
-/// Source: Ocean's spectral EXR files: the wavelength in metres is an attribute named after the channel.
+/// As Ocean's spectral OpenEXR files have it: the wavelength in metres is an attribute named after the
+/// channel.
 std::optional<SpectralChannel> parse_ocean(std::string_view name, const PartHeader& header) {
   std::string_view digits = name;
   if (!take(digits, "wl") || digits.empty() ||

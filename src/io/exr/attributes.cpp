@@ -112,15 +112,6 @@ bool is_manifest_of_nothing(const Imf::Header& from, const std::string& name,
   return first == output.end() || !first->starts_with(layer->value());
 }
 
-/// The view that a channel is of, among others than the default: the last but one part of its name.
-std::string view_of(std::string_view channel) {
-  const std::size_t last = channel.rfind('.');
-  if (last == std::string_view::npos || last == 0) return {};
-  const std::size_t before = channel.rfind('.', last - 1);
-  const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
-  return std::string(channel.substr(first, last - first));
-}
-
 /// The views of a file, the default one first, of which the output has channels; none where its plain R, G,
 /// B are of another view than the default.
 std::vector<std::string> remaining_views(const std::vector<std::string>& views, const AttributeRules& rules) {
@@ -130,8 +121,9 @@ std::vector<std::string> remaining_views(const std::vector<std::string>& views, 
   }
   std::vector<std::string> out = {views[0]};
   for (std::size_t i = 1; i < views.size(); ++i) {
-    const bool there = std::any_of(rules.channels.begin(), rules.channels.end(),
-                                   [&](const std::string& channel) { return view_of(channel) == views[i]; });
+    const bool there =
+        std::any_of(rules.channels.begin(), rules.channels.end(),
+                    [&](const std::string& channel) { return possible_view(channel) == views[i]; });
     if (there) out.push_back(views[i]);
   }
   return out;

@@ -53,6 +53,14 @@ Result<void> check_sampling(const StoredChannel& channel, const std::string& pat
                     path, channel.name, channel.x_sampling, channel.y_sampling);
 }
 
+std::string possible_view(std::string_view channel) {
+  const std::size_t last = channel.rfind('.');
+  if (last == std::string_view::npos || last == 0) return {};
+  const std::size_t before = channel.rfind('.', last - 1);
+  const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+  return std::string(channel.substr(first, last - first));
+}
+
 bool passes(const StoredChannel& channel, std::vector<std::string>& notes) {
   if (!channel.subsampled()) return true;
   notes.push_back(fmt::format("channel \"{}\" is left out: it is subsampled {} x {}", channel.name,
@@ -129,15 +137,6 @@ bool PartHeader::has_attribute(const std::string& name) const {
   return imf_->find(name) != imf_->end();
 }
 
-std::vector<std::pair<std::string, std::string>> PartHeader::texts() const {
-  std::vector<std::pair<std::string, std::string>> out;
-  for (auto it = imf_->begin(); it != imf_->end(); ++it) {
-    const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
-    if (text != nullptr && std::string_view(it.name()) != "type") out.emplace_back(it.name(), text->value());
-  }
-  return out;
-}
-
 std::vector<std::string> PartHeader::object_ids() const {
   std::vector<std::string> layers;
   for (const auto& [name, layer] : texts()) {
@@ -151,6 +150,15 @@ std::vector<std::string> PartHeader::object_ids() const {
       return is_rank_of(channel.name, layer);
     });
     if (ranked || channel.type == SampleType::kUint32) out.push_back(channel.name);
+  }
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> PartHeader::texts() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (auto it = imf_->begin(); it != imf_->end(); ++it) {
+    const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+    if (text != nullptr && std::string_view(it.name()) != "type") out.emplace_back(it.name(), text->value());
   }
   return out;
 }

@@ -68,6 +68,10 @@ Result<void> check_sampling(const StoredChannel& channel, const std::string& pat
 /// True for a channel that can be copied to an output. Notes one that cannot, since it is subsampled.
 bool passes(const StoredChannel& channel, std::vector<std::string>& notes);
 
+/// The last but one part of a channel's name, which is its view where a file has one of that name.
+/// Source: OpenEXR, Storing Multi-View Images.
+std::string possible_view(std::string_view channel);
+
 /// A part's header. Cheap to copy but for its channels; copies share the attributes.
 class PartHeader {
  public:

@@ -101,7 +101,8 @@ Result<ImageReport> write_layer(const Film& film, FilmLayer layer, std::size_t s
   SPECTILE_ASSIGN(auto development, FilmDevelopment::create(film, layer, sensor));
   SPECTILE_TRY(development.update({options.threads}));
   io::TextAttributes texts;
-  if (layer == FilmLayer::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
+  if (layer == FilmLayer::kSrgb) io::add_color_tag(texts, ColorTarget::kSrgb);
+  if (layer == FilmLayer::kXyz) io::add_color_tag(texts, ColorTarget::kXyz);
   if (layer == FilmLayer::kSensor) texts = {{"spectileSensor", film.options().sensors[sensor].name}};
   if (layer == FilmLayer::kSpectrum) {
     io::add_layout_attributes(texts, Quantity::kIlluminant, film.options().bands);
@@ -130,7 +131,9 @@ Result<ImageReport> write_exact(const ProceduralScene& scene, const FilmOptions&
         }
       });
   const SampleType type = options.pixel;
-  return write({pixels.data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, {}, path,
+  io::TextAttributes texts;
+  io::add_color_tag(texts, ColorTarget::kXyz);
+  return write({pixels.data(), 3, width, plane}, film, {{"X", type}, {"Y", type}, {"Z", type}}, texts, path,
                options);
 }
 

@@ -104,7 +104,8 @@ void describe_contents(const io::ExrInput& input, int part, ImageInfo& info) {
     }
   }
   if (polarised > 0)
-    info.contents.push_back(fmt::format("{} channels of polarised light (S1, S2, S3)", polarised));
+    info.contents.push_back(
+        fmt::format("{} channel{} of polarised light (S1, S2, S3)", polarised, polarised == 1 ? "" : "s"));
   for (const io::ColorChannels& c : io::color_sets(input)) {
     info.contents.push_back(io::description(input, c));
     if (c.part != part || !info.color_space.empty()) continue;

@@ -121,8 +121,7 @@ Result<ImageReport> project_file(const std::string& input, const std::string& ou
 
   ProjectJob job(*source, projector, options, setup.kernels);
   io::TextAttributes texts;
-  if (options.target == ColorTarget::kSrgb) texts = {{"colorInteropID", "lin_rec709_scene"}};
-  if (options.target == ColorTarget::kXyz) texts = {{"colorInteropID", "lin_ciexyzd65_scene"}};
+  io::add_color_tag(texts, options.target);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   // The output is linear sRGB or CIE, whatever space the input's preview was in.

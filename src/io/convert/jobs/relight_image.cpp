@@ -82,7 +82,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   RelightJob job(*source, relighter, options, setup.kernels);
   auto texts = io::method_attributes(upsampler, options, false);
   texts.emplace_back("spectileSeenUnder", options.under.name);
-  if (options.target == ColorTarget::kSrgb) texts.emplace_back("colorInteropID", "lin_rec709_scene");
+  io::add_color_tag(texts, options.target);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
   spec.replaced = io::method_attribute_names();

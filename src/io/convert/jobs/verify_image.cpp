@@ -272,8 +272,14 @@ Result<VerifyReport> verify_spectral(io::SpectralSource& source, const MethodOpt
 Result<VerifyReport> verify(const std::string& path, const MethodOptions& options) {
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const int threads = tiles::thread_count(options.threads);
-  auto spectral = io::SpectralSource::open(path, options.channels, std::nullopt, threads, options.region);
-  if (spectral) return verify_spectral(**spectral, options, *kernels);
+  SPECTILE_ASSIGN(const auto input, io::ExrInput::open(path, threads));
+  if (!options.channels.map.empty() || !io::spectral_sets(*input).empty()) {
+    SPECTILE_ASSIGN(auto spectral,
+                    io::SpectralSource::open(path, options.channels, std::nullopt, threads, options.region));
+    SPECTILE_ASSIGN(auto report, verify_spectral(*spectral, options, *kernels));
+    report.notes = spectral->notes();
+    return report;
+  }
   SPECTILE_ASSIGN(auto rgb,
                   io::RgbSource::open(path, options.channels, threads, options.region, options.input_space));
   SPECTILE_ASSIGN(auto report, verify_rgb(*rgb, options, *kernels));

@@ -50,7 +50,8 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
     if (passes(channel, source->notes_)) source->planes_.push_back({name, channel.type});
   }
   if (polarised > 0) {
-    source->notes_.push_back(fmt::format("left out: {} channels of polarised light (S1, S2, S3)", polarised));
+    source->notes_.push_back(fmt::format("left out: {} channel{} of polarised light (S1, S2, S3)", polarised,
+                                         polarised == 1 ? "" : "s"));
   }
   SPECTILE_TRY(source->choose_region(region));
   return source;

@@ -7,6 +7,12 @@
 
 namespace spectile::io {
 
+void add_color_tag(TextAttributes& texts, ColorTarget target) {
+  // Names of the Color Interop Forum.
+  if (target == ColorTarget::kSrgb) texts.emplace_back("colorInteropID", "lin_rec709_scene");
+  if (target == ColorTarget::kXyz) texts.emplace_back("colorInteropID", "lin_ciexyzd65_scene");
+}
+
 std::vector<const char*> color_channels(ColorTarget target) {
   switch (target) {
     case ColorTarget::kXyz:

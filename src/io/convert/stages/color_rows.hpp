@@ -16,6 +16,9 @@ namespace spectile::io {
 /// Channels of a colour.
 std::vector<const char*> color_channels(ColorTarget target);
 
+/// Adds the attribute that names the colour's space; none for luminance.
+void add_color_tag(TextAttributes& texts, ColorTarget target);
+
 /// Clamps what a half cannot hold in the first `count` rows, and counts its pixels.
 std::uint64_t clamp_to_half(const kernels::KernelTable& kernels, const ColorLine& line, std::size_t count,
                             std::size_t width);
