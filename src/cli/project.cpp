@@ -49,7 +49,7 @@ void add_project(const Command& app, int& exit) {
   add_observer_option(command, a->observer);
   add_target_options(command, a->to, a->adapt);
   command.choice("--quantity", a->quantity, kQuantities, kColorGroup,
-                 "reflectance or illuminant, where a file holds both");
+                 "reflectance or illuminant, where a file holds both or does not say");
   add_channel_options(command, a->channels);
   add_channel_map_option(command, a->channels);
   a->image.add_options(

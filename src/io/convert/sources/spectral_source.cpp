@@ -25,11 +25,11 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
       return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
                         path);
     }
-    return make_error(
-        ErrorCode::kBadFile,
-        "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel map "
-        "says which wavelengths other names stand for",
-        path);
+    return make_error(ErrorCode::kBadFile,
+                      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
+                      "map (--channels) "
+                      "says which wavelengths other names stand for",
+                      path);
   }
   source->part_ = set->part;
   source->set_ = *std::move(set);

@@ -1,11 +1,13 @@
-// ZIP compression of one chunk: OpenEXR's byte filter, and deflate by libdeflate, which is several times
-// faster than the zlib that OpenEXR 3.1 uses and gives the same bytes on every processor.
+// ZIP compression of one chunk: OpenEXR's byte filter; deflate by RunDeflate at level 1, else by libdeflate,
+// which is several times faster than the zlib that OpenEXR 3.1 uses.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include "src/io/deflate/run_deflate.hpp"
 
 struct libdeflate_compressor;
 
@@ -24,8 +26,11 @@ class ZipEncoder {
   struct Free {
     void operator()(libdeflate_compressor* c) const noexcept;
   };
+  std::size_t deflate(std::size_t n);
 
+  int level_;
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
+  RunDeflate quick_;
   std::vector<std::byte> filtered_;
   std::vector<std::byte> compressed_;
 };
