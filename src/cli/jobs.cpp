@@ -11,6 +11,7 @@
 #include <set>
 #include <system_error>
 
+#include "src/cli/options/spectrum_options.hpp"
 #include "src/cli/output/image_report.hpp"
 #include "src/cli/output/progress.hpp"
 
@@ -131,7 +132,18 @@ Result<void> check_output(const std::string& output, const std::vector<std::stri
 std::vector<std::string> files_among(const std::vector<std::string>& names_or_files) {
   std::vector<std::string> out;
   for (const std::string& text : names_or_files) {
-    if (!text.empty() && !named_spectrum(text)) out.push_back(text);
+    if (!text.empty() && !named_spectrum(text)) out.push_back(parse_spectrum_path(text).file);
+  }
+  return out;
+}
+
+std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights) {
+  std::vector<std::string> out;
+  for (const NamedLight* light : lights) {
+    if (light == nullptr) continue;
+    for (const std::string& note : light->notes) {
+      if (std::ranges::find(out, note) == out.end()) out.push_back(note);
+    }
   }
   return out;
 }
@@ -163,7 +175,7 @@ void ImageCommand::apply(ImageOptions& out) const {
 
 int run_jobs(const ImageCommand& command, const std::string& settings,
              const std::vector<std::string>& dependencies, ProgressFunction& progress,
-             const Conversion& convert) {
+             const Conversion& convert, const std::vector<std::string>& notes) {
   const Batch batch = plan_batch(command);
   Manifest manifest;
   if (!command.batch.manifest.empty()) manifest.open(command.batch.manifest);
@@ -172,6 +184,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
   std::size_t skipped = 0;
   std::size_t converted = 0;
   catch_signals();
+  print_notes(common, notes);
   if (batch.shard && common.shows_text()) {
     fmt::print("shard {}: {} of {}\n", batch.shard->text(), batch.jobs.size(), plural(batch.inputs, "input"));
   }
@@ -219,6 +232,7 @@ int run_jobs(const ImageCommand& command, const std::string& settings,
     }
     ++converted;
     if (common.json) {
+      report->notes.insert(report->notes.begin(), notes.begin(), notes.end());
       print_json(report_json(job.input, job.output, *report));
     } else if (!common.quiet) {
       print_report(job.input, job.output, *report, common.stats);

@@ -46,9 +46,12 @@ using Conversion = std::function<Result<ImageReport>(const Job&)>;
 /// Converts each job of this shard that needs it. A failed one does not stop the others. Prints reports, and
 /// adds to the manifest. `settings` and `dependencies` are what shapes every output beside its input: a text
 /// of options and files. `progress` is the progress function of the options that `convert` uses. Returns an
-/// exit code.
+/// exit code. `notes`, on the options themselves, are printed once, and stand in every report as JSON.
 int run_jobs(const ImageCommand& command, const std::string& settings,
              const std::vector<std::string>& dependencies, ProgressFunction& progress,
-             const Conversion& convert);
+             const Conversion& convert, const std::vector<std::string>& notes = {});
+
+/// The notes of lights, each once; null for none.
+std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights);
 
 }  // namespace spectile::cli

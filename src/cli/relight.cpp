@@ -21,17 +21,18 @@ struct RelightArguments {
 };
 
 int run_relight(const RelightArguments& a) {
-  RelightImageOptions options(take(find_light(a.illuminant)));
+  RelightImageOptions options(take(find_light(a.illuminant, file_options(a.method.spectra))));
   a.image.apply(options);
   apply_method_options(a.method, options);
   options.target = a.to;
   options.seen_by = a.observer;
   options.adaptation = a.adapt;
   options.mode = a.mode;
-  return run_jobs(a.image, settings_text(options),
-                  files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}),
-                  options.progress,
-                  [&](const Job& job) { return relight_image(job.input, job.output, options); });
+  return run_jobs(
+      a.image, settings_text(options),
+      files_among({a.illuminant, a.method.white, file_of_bands(a.method.bands)}), options.progress,
+      [&](const Job& job) { return relight_image(job.input, job.output, options); },
+      light_notes({&options.under, options.light ? &*options.light : nullptr}));
 }
 
 }  // namespace

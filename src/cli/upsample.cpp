@@ -25,10 +25,11 @@ int run_upsample(const UpsampleArguments& a) {
   options.skip = !a.no_skip;
   if (!a.mask.empty()) options.masking = a.mask == "none" ? Masking::kNone : Masking::kFile;
   if (options.masking == Masking::kFile) options.mask = a.mask;
-  return run_jobs(a.image, settings_text(options),
-                  files_among({a.method.white, file_of_bands(a.method.bands), options.mask}),
-                  options.progress,
-                  [&](const Job& job) { return upsample_image(job.input, job.output, options); });
+  return run_jobs(
+      a.image, settings_text(options),
+      files_among({a.method.white, file_of_bands(a.method.bands), options.mask}), options.progress,
+      [&](const Job& job) { return upsample_image(job.input, job.output, options); },
+      light_notes({options.light ? &*options.light : nullptr}));
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ int run_verify(const VerifyArguments& a) {
   MethodOptions options;
   options.threads = a.common.threads;
   apply_method_options(a.method, options);
+  const std::vector<std::string> notes = options.light ? options.light->notes : std::vector<std::string>();
+  print_notes(a.common, notes);
   int exit = kOk;
   for (const std::string& input : a.inputs) {
     const auto report = verify_image(input, options);
@@ -38,7 +40,8 @@ int run_verify(const VerifyArguments& a) {
                   {"max_kernel_difference", report->max_kernel_difference},
                   {"max_oracle_difference", report->max_oracle_difference},
                   {"oracle_bound", report->oracle_bound},
-                  {"ok", report->ok()}});
+                  {"ok", report->ok()},
+                  {"notes", notes}});
     } else if (!a.common.quiet) {
       fmt::print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,
                  report->ok() ? "ok" : "DIFFERENT");

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/cli/options/common_options.hpp"
+#include "src/cli/options/spectrum_options.hpp"
 
 namespace spectile::cli {
 
@@ -18,6 +18,7 @@ struct MethodArguments {
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;
   std::string layer;
+  SpectrumArguments spectra;  ///< how --white, and a command's own illuminant, are read
 };
 
 void add_method_options(const Command& command, MethodArguments& a);
