@@ -94,15 +94,20 @@ bool begins_with_number(std::string_view line) {
   return !line.empty() && !begins_like_a_word(line);
 }
 
+/// So many lines of samples tell the format of all.
+constexpr std::size_t kMaxTellingLines = 10000;
+
 /// Calls `take` with the lines that tell the format.
 template <class Take>
 void for_telling_lines(const TextFile& file, bool numbers_first, const Take& take) {
+  std::size_t count = 0;
   for (const std::string_view whole : file.lines) {
     const std::string_view line = without_comment(whole);
     if (line.empty()) continue;
     if (numbers_first ? begins_with_number(line) && line.find_first_of(",;: \t") != std::string_view::npos
                       : numbers_before(line) == 2) {
       take(line);
+      if (++count == kMaxTellingLines) return;
     }
   }
 }

@@ -193,6 +193,12 @@ Result<Samples> samples_of(const TextFile& file, const RawAxis& axis, const std:
     return make_error(ErrorCode::kBadFile, "{}: all samples of {} are missing", file.path,
                       io::quoted(s.name));
   }
+  if (!covers_visible(out.nm, WavelengthUnit::kNm)) {
+    const auto [first, last] = std::ranges::minmax(out.nm);
+    return make_error(ErrorCode::kBadFile,
+                      "{}: no sample of {} lies within {} to {} nm; its wavelengths are {:.6g} to {:.6g} nm",
+                      file.path, io::quoted(s.name), kFirstVisibleNm, kLastVisibleNm, first, last);
+  }
   SPECTILE_TRY(check_samples(file, out));
   return out;
 }

@@ -84,6 +84,8 @@ TEST_F(SpectrumUnits, TableWithoutVisibleSampleSaysWhatItHolds) {
   expect_refused("wavelength (um),E\n400,1\n500,2\n700,3\n",
                  "wavelengths are 400 to 700 um (400000 to 700000 nm)");
   expect_refused("0.1,1\n0.2,2\n0.3,1\n0.31,1\n0.32,1\n", "wavelengths are 0.1 to 0.32 nm");
+  expect_refused("a,400,1\na,500,1\nb,900,1\nb,1000,1\n",
+                 "no sample of \"b\" lies within 360 to 830 nm; its wavelengths are 900 to 1000 nm");
   EXPECT_TRUE(load("300,1\n900,1\n"));  // covers it
 }
 
