@@ -1,4 +1,4 @@
-// Fuzzes text files of spectra: columns, lists by name, CGATS.
+// Fuzzes text files of spectra: columns, pairs, rows, lists by name, CGATS, XML.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void require_spectrum(const Spectrum& spectrum) {
                 "wavelengths are positive and ascend");
   const auto finite = [](double v) { return std::isfinite(v); };
   fuzz::require(std::ranges::all_of(nm, finite) && std::ranges::all_of(values, finite), "samples are finite");
-  std::string text;
+  std::string text = "wavelength_nm value\n";
   for (std::size_t i = 0; i < nm.size(); ++i) text += fmt::format("{} {}\n", nm[i], values[i]);
   const fuzz::CaseFolder written({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   const auto again = load_spectrum(written.input());
@@ -48,6 +48,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto second = load_spectrum(folder.input(), 1);
   const auto all = load_spectra(folder.input());
   const auto measured = load_spectrum_csv(folder.input());
+  SpectrumFileOptions reflectance;
+  reflectance.use = SpectrumUse::kReflectance;
+  names_its_file(load_spectrum_table(folder.input(), reflectance), folder);
   folder.require_tidy(false);
   names_its_file(measured, folder);
   const bool has_all = names_its_file(all, folder);

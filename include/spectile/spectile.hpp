@@ -36,6 +36,7 @@
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/spectra/observer.hpp>
 #include <spectile/spectra/spectrum.hpp>
+#include <spectile/spectra/spectrum_table.hpp>
 #include <spectile/units.hpp>
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/representation.hpp>

@@ -189,8 +189,11 @@ BenchmarkOptions make_options(const BenchArguments& a) {
   out.only = a.only;
   out.seed = static_cast<std::uint64_t>(a.seed);
   for (const std::string& file : a.reflectances) {
-    const std::vector<Spectrum> some = take(load_spectra(file));
-    out.reflectances.insert(out.reflectances.end(), some.begin(), some.end());
+    const SpectrumTable some = take(find_reflectances(file));
+    out.reflectances.insert(out.reflectances.end(), some.spectra.begin(), some.spectra.end());
+    if (!a.quiet && !a.json) {
+      for (const std::string& note : some.notes) print("note: {}\n", note);
+    }
   }
   const bool show = !a.quiet && !a.json;
   out.progress = [bar = progress_bar("bench", show)](const std::string&, double done) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "src/cli/options/spectrum_options.hpp"
 #include "src/cli/output/image_report.hpp"
 #include "src/cli/output/print.hpp"
 #include "src/cli/output/progress.hpp"
@@ -160,6 +161,17 @@ void check_batch_files(const Batch& batch, const std::string& manifest, std::vec
 
 }  // namespace
 
+std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights) {
+  std::vector<std::string> out;
+  for (const NamedLight* light : lights) {
+    if (light == nullptr) continue;
+    for (const std::string& note : light->notes) {
+      if (std::ranges::find(out, note) == out.end()) out.push_back(note);
+    }
+  }
+  return out;
+}
+
 void ImageCommand::add_files(const Command& command, const std::string& input_help) {
   command.positional("IN", inputs, input_help).required();
   command.output_file("-o,--output", output, kFilesGroup, "Output file, or folder for several inputs", "PATH")
@@ -196,6 +208,7 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
   std::size_t skipped = 0;
   std::size_t converted = 0;
   catch_signals();
+  print_notes(common, shared.notes);
   if (batch.shard && common.shows_text()) {
     print("shard {}: {} of {}\n", batch.shard->text(), batch.jobs.size(), plural(batch.inputs, "input"));
   }
@@ -242,6 +255,7 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
     }
     ++converted;
     if (common.json) {
+      report->notes.insert(report->notes.begin(), shared.notes.begin(), shared.notes.end());
       print_json(report_json(job.input, job.output, *report));
     } else if (!common.quiet) {
       print_report(job.input, job.output, *report, shared.colors, notes, common.stats);

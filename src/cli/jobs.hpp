@@ -43,6 +43,7 @@ struct Shared {
   std::optional<ColorHandling> colors = std::nullopt;  ///< of inputs that are RGB
   std::string light = {};  ///< which a plan of bands must hold, as it was given; D65 for an empty text
   std::string plan = {};   ///< the file of that plan; the input where none
+  std::vector<std::string> notes = {};  ///< on the options: printed once, and in every report as JSON
 };
 
 /// Converts each job of this shard that needs it. A failed one does not stop the others. Prints reports, and
@@ -50,5 +51,8 @@ struct Shared {
 /// exit code.
 int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction& progress,
              const Conversion& convert);
+
+/// The notes of lights, each once; null for none.
+std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights);
 
 }  // namespace spectile::cli

@@ -34,34 +34,31 @@ struct PlanArguments {
   Observer observer = Observer::kCie1931;
   int folds = PlannerOptions().folds;
   std::string output;
+  SpectrumArguments spectra;
+  std::optional<Ends> reflectance_ends;
 };
 
 /// Input of the planner, and its description.
 struct Scene {
   PlannerOptions options;
   std::string from;                ///< "24 reflectances and 128 colours of 1 texture"
-  std::vector<std::string> notes;  ///< of textures
+  std::vector<std::string> notes;  ///< on textures and files of spectra
 };
 
 /// Throws: Stop.
-void add_lights(const PlanArguments& a, PlannerOptions& out) {
+void add_lights(const PlanArguments& a, Scene& scene) {
+  PlannerOptions& out = scene.options;
+  SpectrumFileOptions options = file_options(a.spectra);
+  options.one.reset();  // of reflectances
   for (const std::string& text : a.lights) {
-    NamedLight named = take(find_light(text));
+    NamedLight named = take(find_light(text, options));
+    scene.notes.insert(scene.notes.end(), named.notes.begin(), named.notes.end());
     for (const NamedLight& other : out.lights) {
       if (other.name == named.name)
         throw Stop(complain_usage(fmt::format("two illuminants are called {}", other.name)));
     }
     out.lights.push_back(std::move(named));
   }
-}
-
-/// All spectra of a file, or one by its name. Throws: Stop.
-std::vector<Spectrum> reflectances_of(const std::string& text) {
-  auto named = find_spectrum(text);
-  if (named ? static_cast<bool>(named_spectrum(text)) : named.error().code == ErrorCode::kUnknownName) {
-    return {take(std::move(named))};
-  }
-  return take(load_spectra(text));
 }
 
 /// Reflectances for scenes of which nothing is known: the 24 patches of the ColorChecker and a grid of sRGB.
@@ -107,9 +104,12 @@ void add_textures(const PlanArguments& a, Scene& scene) {
 /// Throws: Stop.
 void add_reflectances(const PlanArguments& a, Scene& out) {
   auto& all = out.options.reflectances;
+  SpectrumFileOptions options = file_options(a.spectra);
+  options.ends = a.reflectance_ends;
   for (const std::string& text : a.reflectances) {
-    const std::vector<Spectrum> some = reflectances_of(text);
-    all.insert(all.end(), some.begin(), some.end());
+    const SpectrumTable some = take(find_reflectances(text, options));
+    all.insert(all.end(), some.spectra.begin(), some.spectra.end());
+    out.notes.insert(out.notes.end(), some.notes.begin(), some.notes.end());
   }
   const std::size_t measured = all.size();
   add_textures(a, out);
@@ -172,7 +172,7 @@ int run_plan(const PlanArguments& a) {
   o.max_error = a.max_error;
   o.observer = a.observer;
   o.folds = a.folds;
-  add_lights(a, o);
+  add_lights(a, scene);
   add_reflectances(a, scene);
   const auto start = std::chrono::steady_clock::now();
   const auto plan = make_plan(o);
@@ -188,7 +188,7 @@ int run_plan(const PlanArguments& a) {
   if (a.common.json) {
     auto json = nlohmann::ordered_json::parse(plan_to_json(*plan));
     if (!scene.notes.empty()) json["notes"] = scene.notes;
-    print_verbatim(json.dump() + "\n");
+    print_verbatim(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else if (!a.common.quiet) {
     print_report(*plan, scene, seconds.count(), a.output);
   }
@@ -213,6 +213,10 @@ void add_plan(const Command& app, int& exit) {
       .option("--illuminant", a->lights, "SPECTRUM", kColorGroup,
               "Illuminant of the scene; repeat it for several, which share the wavelengths")
       .required();
+  add_spectrum_options(command, a->spectra);
+  add_ends_option(command, a->reflectance_ends, "--reflectance-ends",
+                  "Reflectances beyond their data: zero, or held; held by default");
+  add_values_option(command, a->spectra);
   add_observer_option(command, a->observer);
   add_method_option(command, a->method);
   add_rgb_input_options(command, a->input_space, a->channels);

@@ -2,6 +2,7 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"
+#include "src/cli/options/spectrum_options.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -16,6 +17,7 @@ struct ProjectArguments {
   Observer observer = Observer::kCie1931;
   std::optional<Quantity> quantity;
   ChannelArguments channels;
+  SpectrumArguments spectra;
   Adaptation adapt = Adaptation::kNone;
 };
 
@@ -25,7 +27,11 @@ int run_project(const ProjectArguments& a) {
   a.image.apply(options);
   options.target = a.to;
   options.observer = a.observer;
-  if (!a.illuminant.empty()) options.light = take(find_light(a.illuminant)).spectrum;
+  std::optional<NamedLight> light;
+  if (!a.illuminant.empty()) {
+    light = take(find_light(a.illuminant, file_options(a.spectra)));
+    options.light = light->spectrum;
+  }
   options.adaptation = a.adapt;
   options.quantity = a.quantity;
   options.channels = channel_choice(a.channels);
@@ -34,7 +40,9 @@ int run_project(const ProjectArguments& a) {
       {settings_text(options),
        files_among({{a.illuminant, kIlluminantRole}, {a.channels.map, "the channel map (--channels)"}}),
        {},
-       a.illuminant},
+       a.illuminant,
+       {},
+       light_notes({light ? &*light : nullptr})},
       options.progress, [&](const Job& job) { return project_image(job.input, job.output, options); });
 }
 
@@ -48,6 +56,7 @@ void add_project(const Command& app, int& exit) {
                  "Illuminant on reflectances; D65 by default");
   add_observer_option(command, a->observer);
   add_target_options(command, a->to, a->adapt);
+  add_spectrum_options(command, a->spectra);
   command.choice("--quantity", a->quantity, kQuantities, kColorGroup,
                  "reflectance or illuminant, where a file holds both or does not say");
   add_channel_options(command, a->channels);

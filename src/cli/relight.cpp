@@ -21,7 +21,7 @@ struct RelightArguments {
 };
 
 int run_relight(const RelightArguments& a) {
-  RelightImageOptions options(take(find_light(a.illuminant)));
+  RelightImageOptions options(take(find_light(a.illuminant, file_options(a.method.spectra))));
   a.image.apply(options);
   apply_method_options(a.method, options);
   options.target = a.to;
@@ -35,7 +35,8 @@ int run_relight(const RelightArguments& a) {
       static_cast<bool>(Projector::reflective(options.bands, options.under.spectrum, a.observer));
   return run_jobs(a.image,
                   {settings_text(options), std::move(dependencies), color_handling(options),
-                   lacks_white ? a.method.white : a.illuminant, file_of_bands(a.method.bands)},
+                   lacks_white ? a.method.white : a.illuminant, file_of_bands(a.method.bands),
+                   light_notes({&options.under, options.light ? &*options.light : nullptr})},
                   options.progress,
                   [&](const Job& job) { return relight_image(job.input, job.output, options); });
 }

@@ -10,6 +10,7 @@
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
 #include "src/cli/options/parse.hpp"
+#include "src/cli/options/spectrum_options.hpp"
 #include "src/cli/output/plot.hpp"
 #include "src/cli/output/print.hpp"
 
@@ -24,7 +25,8 @@ struct SpectraArguments {
   std::optional<std::string> which;
   bool csv = false;
   std::vector<double> at;
-  std::optional<std::size_t> column;
+  std::string column;
+  SpectrumArguments spectra;
 };
 
 /// A spectrum as a list of samples, and its description.
@@ -36,6 +38,7 @@ struct Shown {
   Spectrum spectrum;
   std::vector<double> wavelengths_nm;  ///< as published, or every nanometre of a formula
   std::vector<double> values;
+  std::vector<std::string> notes;  ///< on how a file was read
 };
 
 /// True if it could be an illuminant: all but those that are surely something else.
@@ -71,13 +74,23 @@ int list_all(const SpectraArguments& a) {
   return kOk;
 }
 
-Result<Spectrum> spectrum_of(const SpectraArguments& a) {
-  if (!a.column) return find_spectrum(*a.which);
-  if (named_spectrum(*a.which)) {
+Result<LoadedSpectrum> spectrum_of(const SpectraArguments& a) {
+  SpectrumFileOptions options = file_options(a.spectra);
+  options.column = a.column;
+  if (!a.column.empty() && named_spectrum(*a.which)) {
     return Error{ErrorCode::kBadArgument,
                  fmt::format("\"{}\" is one spectrum by name; --column is for files", *a.which)};
   }
-  return load_spectrum(*a.which, *a.column);
+  return find_loaded_spectrum(*a.which, options);
+}
+
+/// Text on the values beyond the data.
+std::string ends_text(const Shown& s, const SpectraArguments& a) {
+  if (s.kind == "formula") return "continues beyond these";
+  const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&s.spectrum.kind());
+  const bool held = linear != nullptr && linear->ends() == Ends::kHeld;
+  if (s.kind != "file" || a.spectra.ends) return held ? "held beyond its ends" : "0 beyond its ends";
+  return "0 beyond its ends as a light, held as a reflectance";
 }
 
 Shown describe(const SpectraArguments& a, const Spectrum& spectrum) {
@@ -87,7 +100,8 @@ Shown describe(const SpectraArguments& a, const Spectrum& spectrum) {
             .source = {},
             .spectrum = spectrum,
             .wavelengths_nm = {},
-            .values = {}};
+            .values = {},
+            .notes = {}};
   for (const NamedSpectrumInfo& info : named_spectra()) {
     const std::string wanted = lower_case(*a.which);
     if (lower_case(info.name) != wanted && lower_case(info.alias) != wanted) continue;
@@ -153,6 +167,8 @@ void print_shown_json(const Shown& s, const SpectraArguments& a) {
                         {"average_400_700_nm", facts.average},
                         {"wavelengths_nm", s.wavelengths_nm},
                         {"values", s.values}};
+  out["ends"] = ends_text(s, a);
+  out["notes"] = s.notes;
   if (!s.source.empty()) out["source"] = s.source;
   if (facts.xy) out["chromaticity"] = *facts.xy;
   for (const double nm : a.at) out["at"].push_back({{"wavelength_nm", nm}, {"value", s.spectrum(nm)}});
@@ -190,6 +206,7 @@ void print_text(const Shown& s, const SpectraArguments& a) {
   const Facts facts = facts_of(s);
   print("{:.6g} to {:.6g} nm, {} {}\n", s.wavelengths_nm.front(), s.wavelengths_nm.back(), s.values.size(),
         s.kind == "formula" ? "values drawn" : "samples");
+  print("{}\n", ends_text(s, a));
   print("maximum {:.6g} at {:.6g} nm, average over 400 to 700 nm {:.6g}\n", facts.maximum,
         facts.maximum_at_nm, facts.average);
   if (facts.xy) {
@@ -201,13 +218,16 @@ void print_text(const Shown& s, const SpectraArguments& a) {
 int run_spectra(const SpectraArguments& a) {
   apply_common(a.common);
   if (!a.which) return list_all(a);
-  const Shown shown = describe(a, take(spectrum_of(a)));
+  LoadedSpectrum loaded = take(spectrum_of(a));
+  Shown shown = describe(a, loaded.spectrum);
+  shown.notes = std::move(loaded.notes);
   if (a.csv) {
     print_csv(shown, a);
   } else if (a.common.json) {
     print_shown_json(shown, a);
   } else if (!a.common.quiet) {
     print_text(shown, a);
+    print_notes(a.common, shown.notes);
   }
   return kOk;
 }
@@ -218,7 +238,7 @@ void add_spectra(const Command& app, int& exit) {
   auto a = std::make_shared<SpectraArguments>();
   const Command command = app.subcommand("spectra", "List the spectra known by name, or show one");
   command.positional("SPECTRUM", a->which,
-                     "Name, file (CSV, .sp, .cmf), or blackbody:KELVIN, daylight:KELVIN, constant:VALUE", "");
+                     "Name, FILE or FILE:COLUMN, or blackbody:KELVIN, daylight:KELVIN, constant:VALUE", "");
   constexpr const char* kGroup = "Values";
   const Option csv = command.flag("--csv", a->csv, kGroup, "Print comma-separated values only");
   command.option("--at", a->at, "NM", kGroup, "Print the value at this wavelength in nm; may be repeated")
@@ -228,12 +248,15 @@ void add_spectra(const Command& app, int& exit) {
         return nm && nm->size() == 1 && std::isfinite(nm->front()) ? std::string()
                                                                    : text + " is not a wavelength";
       });
-  command.option("--column", a->column, "N", kGroup, "Data row of a CGATS file that holds several, from 0")
-      .range(0, 999999);
+  command.option("--column", a->column, "NAME", kGroup,
+                 "Spectrum of a file that holds several, by name or by number from 0");
+  add_ends_option(command, a->spectra.ends, "--ends", "The spectrum beyond its data: zero, or held");
+  add_unit_options(command, a->spectra);
+  add_values_option(command, a->spectra);
   add_common(command, a->common, "spectile spectra blackbody:3200 --at 555");
   csv.excludes("--json");
   command.on_run([a, &exit] {
-    if (!a->which && (!a->at.empty() || a->column)) {
+    if (!a->which && (!a->at.empty() || !a->column.empty())) {
       throw_usage_error("SPECTRUM, of which --at or --column asks, is required");
     }
     exit = run_spectra(*a);

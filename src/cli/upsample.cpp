@@ -33,7 +33,7 @@ int run_upsample(const UpsampleArguments& a) {
   if (!options.mask.empty()) dependencies.push_back({options.mask, "the mask (--mask)"});
   return run_jobs(a.image,
                   {settings_text(options), std::move(dependencies), color_handling(options), a.method.white,
-                   file_of_bands(a.method.bands)},
+                   file_of_bands(a.method.bands), light_notes({options.light ? &*options.light : nullptr})},
                   options.progress,
                   [&](const Job& job) { return upsample_image(job.input, job.output, options); });
 }

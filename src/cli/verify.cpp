@@ -21,6 +21,9 @@ int run_verify(const VerifyArguments& a) {
   MethodOptions options;
   options.threads = a.common.threads;
   apply_method_options(a.method, options);
+  const std::vector<std::string> light_notes =
+      options.light ? options.light->notes : std::vector<std::string>();
+  print_notes(a.common, light_notes);
   int exit = kOk;
   Notes notes;
   for (const std::string& input : a.inputs) {
@@ -31,6 +34,8 @@ int run_verify(const VerifyArguments& a) {
     }
     if (!report->ok()) exit = std::max<int>(exit, kBadInput);
     if (a.common.json) {
+      std::vector<std::string> all = light_notes;
+      all.insert(all.end(), report->notes.begin(), report->notes.end());
       print_json({{"input", input},
                   {"isa", report->isa},
                   {"what", report->what},
@@ -40,7 +45,7 @@ int run_verify(const VerifyArguments& a) {
                   {"max_kernel_difference", report->max_kernel_difference},
                   {"max_oracle_difference", report->max_oracle_difference},
                   {"oracle_bound", report->oracle_bound},
-                  {"notes", report->notes},
+                  {"notes", all},
                   {"ok", report->ok()}});
     } else if (!a.common.quiet) {
       print("{}: {}, {} pixels: {}\n", input, report->what, report->pixels,

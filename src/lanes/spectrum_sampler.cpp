@@ -118,7 +118,9 @@ struct SpectrumSampler::Tables {
     constant = static_cast<float>(s.value());
     return {};
   }
-  Result<void> set(const PiecewiseLinearSpectrum& s) { return set_knots(s.measured(), false, Kind::kKnots); }
+  Result<void> set(const PiecewiseLinearSpectrum& s) {
+    return set_knots(s.measured(), s.ends() == Ends::kHeld, Kind::kKnots);
+  }
   Result<void> set(const DenselySampledSpectrum& s) {
     kind = Kind::kEven;
     SPECTILE_ASSIGN(even, make_even_table(s));

@@ -29,6 +29,9 @@ constexpr std::size_t kProducts = 300;
 /// under each light: random ones alone leave out the few dark saturated ones with the largest errors.
 constexpr std::size_t kPool = 5000;
 constexpr std::size_t kWorst = 20;
+/// Noise of an instrument lies below 0, total reflectance factors of fluorescent paper lie up to 2.
+constexpr double kMinReflectance = -0.1;
+constexpr double kMaxReflectance = 2;
 /// Reflectance at which smooth deviations are evaluated.
 constexpr double kGrey = 0.2;
 
@@ -58,7 +61,13 @@ Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances) {
         return make_error(ErrorCode::kBadArgument, "reflectance {} of {} is no number at {} nm", i + 1,
                           out.cols(), nm);
       }
-      out(g, i) = std::clamp(value, 0.0, 1.0);
+      if (!(value >= kMinReflectance && value <= kMaxReflectance)) {
+        return make_error(ErrorCode::kBadArgument,
+                          "reflectance {} of {} is {:.6g} at {} nm; reflectances run from 0 to 1, with room "
+                          "from {} to {} for noise and fluorescence",
+                          i + 1, out.cols(), value, nm, kMinReflectance, kMaxReflectance);
+      }
+      out(g, i) = value;
     }
   }
   return out;

@@ -54,7 +54,7 @@ Matrix reference_xyz(const SampleSet& set, const Matrix& integrals);
 /// XYZ of samples by a plan's parameters. Shapes: [3][samples].
 Matrix predict(const SampleSet& set, const Parameters& parameters, Eigen::Index light);
 
-/// Reflectances every nanometre, limited to [0, 1]. Shapes: [kGrid][reflectances]. Errors: kBadArgument for
+/// Reflectances every nanometre, as they are. Shapes: [kGrid][reflectances]. Errors: kBadArgument for
 /// one that is no number somewhere.
 Result<Matrix> tabulate(const std::vector<Spectrum>& reflectances);
 /// Synthetic reflectances with steep edges anywhere from first_nm to last_nm, as saturated paints have, of

@@ -12,7 +12,7 @@
 namespace spectile {
 
 Result<MeasuredSpectrum> MeasuredSpectrum::from_samples(std::span<const double> wavelengths_nm,
-                                                        std::span<const double> values) {
+                                                        std::span<const double> values, Ends ends) {
   if (wavelengths_nm.size() != values.size()) {
     return make_error(ErrorCode::kSizeMismatch, "the spectrum has {} wavelengths and {} values",
                       wavelengths_nm.size(), values.size());
@@ -30,6 +30,7 @@ Result<MeasuredSpectrum> MeasuredSpectrum::from_samples(std::span<const double> 
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return wavelengths_nm[a] < wavelengths_nm[b]; });
   MeasuredSpectrum spectrum;
+  spectrum.ends_ = ends;
   for (const std::size_t i : order) {
     spectrum.wavelengths_nm_.push_back(wavelengths_nm[i]);
     spectrum.values_.push_back(values[i]);
@@ -37,8 +38,15 @@ Result<MeasuredSpectrum> MeasuredSpectrum::from_samples(std::span<const double> 
   return spectrum;
 }
 
+MeasuredSpectrum MeasuredSpectrum::with_ends(Ends ends) const {
+  MeasuredSpectrum out = *this;
+  out.ends_ = ends;
+  return out;
+}
+
 double MeasuredSpectrum::at(double lambda_nm) const noexcept {
   const auto& w = wavelengths_nm_;
+  if (ends_ == Ends::kZero && (lambda_nm < w.front() || lambda_nm > w.back())) return 0;
   const auto above = std::upper_bound(w.begin(), w.end(), lambda_nm);
   if (above == w.begin()) return values_.front();
   if (above == w.end()) return values_.back();
@@ -62,11 +70,11 @@ void for_segments(std::span<const double> breaks, double first, double last, Seg
 }
 
 /// A spectrum restricted to a segment that holds none of its breaks inside: its values just within both ends.
-struct Ends {
+struct EndValues {
   double left, right;
 };
 
-Ends ends_within(const MeasuredSpectrum& s, double from, double to) {
+EndValues ends_within(const MeasuredSpectrum& s, double from, double to) {
   // Two points inside a straight piece give its ends, on the right side of a step.
   const double third = (to - from) / 3;
   const double a = s.at(from + third);
@@ -111,8 +119,8 @@ double product_integral(const MeasuredSpectrum& a, const MeasuredSpectrum& b, do
              b.wavelengths_nm().end(), std::back_inserter(breaks));
   double sum = 0;
   for_segments(breaks, first_nm, last_nm, [&](double from, double to) {
-    const Ends p = ends_within(a, from, to);
-    const Ends q = ends_within(b, from, to);
+    const EndValues p = ends_within(a, from, to);
+    const EndValues q = ends_within(b, from, to);
     // The product is a parabola, for which Simpson's rule is exact.
     const double middle = 0.25 * (p.left + p.right) * (q.left + q.right);
     sum += (to - from) / 6 * (p.left * q.left + 4 * middle + p.right * q.right);
@@ -130,7 +138,7 @@ Result<MeasuredSpectrum> illuminant(std::string_view name) {
     for (std::size_t i = 0; i < table.values.size(); ++i) {
       wavelengths.push_back(table.first_nm + static_cast<double>(i) * table.step_nm);
     }
-    return MeasuredSpectrum::from_samples(wavelengths, table.values);
+    return MeasuredSpectrum::from_samples(wavelengths, table.values, Ends::kZero);
   }
   return make_error(ErrorCode::kUnknownName, "illuminant \"{}\" is unknown; there are {}", name,
                     fmt::join(illuminant_names(), ", "));

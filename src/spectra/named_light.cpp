@@ -11,6 +11,9 @@ namespace {
 /// Spectra that differ by no more than this of their largest value are the same.
 constexpr double kTolerance = 1e-6;
 
+/// Values below 0 up to this share of the largest are an instrument's dark noise.
+constexpr double kDarkNoise = 0.01;
+
 constexpr int kFirstTabulatedNm = 300;
 constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
 constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
@@ -19,16 +22,37 @@ constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
 
 Result<MeasuredSpectrum> tabulated(const Spectrum& light) {
   if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&light.kind())) {
-    return linear->measured();
+    return linear->measured().with_ends(linear->ends());
   }
   std::vector<double> wavelengths;
   for (int nm = kFirstTabulatedNm; nm <= kLastNm; ++nm) wavelengths.push_back(nm);
-  return MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths));
+  return MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths), Ends::kZero);
 }
 
 Result<NamedLight> named_light(std::string name, const Spectrum& light) {
   SPECTILE_ASSIGN(auto table, tabulated(light));
-  return NamedLight{std::move(name), std::move(table)};
+  return NamedLight{std::move(name), std::move(table), {}};
+}
+
+Result<void> check_light(NamedLight& light) {
+  const auto values = light.spectrum.values();
+  const double largest = std::ranges::max(values);
+  const double smallest = std::ranges::min(values);
+  if (smallest < 0) {
+    const auto count = std::ranges::count_if(values, [](double v) { return v < 0; });
+    if (!(-smallest <= kDarkNoise * largest)) {
+      return make_error(ErrorCode::kBadArgument,
+                        "{}: {} of {} values are below 0, down to {:.6g}; a light has no negative emission",
+                        light.name, count, values.size(), smallest);
+    }
+    light.notes.push_back(fmt::format("{}: {} of {} values are below 0, down to {:.3g}, and kept", light.name,
+                                      count, values.size(), smallest));
+  }
+  if (!(light.spectrum.integral(kFirstVisibleNm, kLastVisibleNm) > 0)) {
+    return make_error(ErrorCode::kBadArgument, "{}: has no energy within {} to {} nm, so it is no light",
+                      light.name, kFirstVisibleNm, kLastVisibleNm);
+  }
+  return {};
 }
 
 std::vector<double> relative_values(const MeasuredSpectrum& light) {

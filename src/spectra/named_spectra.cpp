@@ -147,7 +147,8 @@ Result<Spectrum> named_table(const Entry& e) {
   for (std::size_t i = wavelengths.size(); i < e.values.size(); ++i) {
     wavelengths.push_back(e.first_nm + static_cast<double>(i) * e.step_nm);
   }
-  return widened(PiecewiseLinearSpectrum::from_samples(wavelengths, e.values));
+  const Ends ends = e.info.kind == "reflectance" ? Ends::kHeld : Ends::kZero;
+  return widened(PiecewiseLinearSpectrum::from_samples(wavelengths, e.values, ends));
 }
 
 /// How many letters must be put in, taken out or exchanged to make `b` of `a`.

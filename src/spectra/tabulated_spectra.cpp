@@ -17,26 +17,31 @@ std::string ConstantSpectrum::to_text() const {
 }
 
 Result<PiecewiseLinearSpectrum> PiecewiseLinearSpectrum::from_samples(std::span<const double> wavelengths_nm,
-                                                                      std::span<const double> values) {
+                                                                      std::span<const double> values,
+                                                                      Ends ends) {
   SPECTILE_ASSIGN(auto samples, MeasuredSpectrum::from_samples(wavelengths_nm, values));
-  return PiecewiseLinearSpectrum(std::move(samples));
+  return PiecewiseLinearSpectrum(std::move(samples), ends);
 }
 
-PiecewiseLinearSpectrum::PiecewiseLinearSpectrum(MeasuredSpectrum samples)
-    : samples_(std::make_shared<const MeasuredSpectrum>(std::move(samples))) {}
+PiecewiseLinearSpectrum::PiecewiseLinearSpectrum(MeasuredSpectrum samples, Ends ends)
+    : samples_(std::make_shared<const MeasuredSpectrum>(
+          samples.ends() == Ends::kHeld ? std::move(samples) : samples.with_ends(Ends::kHeld))),
+      ends_(ends) {}
 
 double PiecewiseLinearSpectrum::operator()(double lambda_nm) const noexcept {
   const auto w = samples_->wavelengths_nm();
-  if (lambda_nm < w.front() || lambda_nm > w.back()) return 0;
+  if (ends_ == Ends::kZero && (lambda_nm < w.front() || lambda_nm > w.back())) return 0;
   if (std::isnan(lambda_nm)) return lambda_nm;
   return samples_->at(lambda_nm);
 }
 
 double PiecewiseLinearSpectrum::max_value() const noexcept {
-  return std::max(0.0, *std::max_element(values().begin(), values().end()));
+  const double largest = *std::max_element(values().begin(), values().end());
+  return ends_ == Ends::kZero ? std::max(0.0, largest) : largest;
 }
 
 double PiecewiseLinearSpectrum::integral(double first_nm, double last_nm) const noexcept {
+  if (ends_ == Ends::kHeld) return samples_->integral(first_nm, last_nm);
   const auto w = samples_->wavelengths_nm();
   return samples_->integral(std::max(first_nm, w.front()), std::min(last_nm, w.back()));
 }
@@ -48,7 +53,7 @@ std::string PiecewiseLinearSpectrum::to_text() const {
 }
 
 PiecewiseLinearSpectrum PiecewiseLinearSpectrum::scaled(double factor) const {
-  return PiecewiseLinearSpectrum(samples_->scaled(factor));
+  return PiecewiseLinearSpectrum(samples_->scaled(factor), ends_);
 }
 
 namespace {

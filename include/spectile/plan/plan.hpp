@@ -63,7 +63,7 @@ Plan plan_of_bands(const Bands& bands);
 /// The scene that a plan is made for, and its size.
 struct PlannerOptions {
   std::vector<NamedLight> lights;  ///< 0 beyond their tables' ends
-  /// Reflectances of the scene, limited to [0, 1], constant beyond their ends.
+  /// Reflectances of the scene, constant beyond their ends; outside -0.1 to 2 they are an error.
   std::vector<Spectrum> reflectances;
   BandSampling sampling =
       BandSampling::kPoints;         ///< averages have a half to a quarter of the error, for one bounce
@@ -82,10 +82,11 @@ struct PlannerOptions {
 /// the widths of bands, sensor weights and emission values, to the least colour differences, each in the
 /// CIEDE2000 metric at its own colour; white is held exactly. Errors in the report are cross-validated: each
 /// reflectance is held out of the fit that it is evaluated by. Errors: kBadArgument for no lights, two of one
-/// name, a light without luminance or whose white has no X or Z, a reflectance that is no number somewhere,
-/// fewer than 10 reflectances, neither or both of bands and max_error, numbers out of their ranges;
-/// kUnavailable where max_error cannot be met, saying the best there is. Source of kernel quadrature:
-/// Rasmussen, Ghahramani, Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu, Dalal 2005.
+/// name, a light without luminance or whose white has no X or Z, a reflectance that is no number or far
+/// outside 0 to 1 somewhere, fewer than 10 reflectances, neither or both of bands and max_error, numbers out
+/// of their ranges; kUnavailable where max_error cannot be met, saying the best there is. Source of kernel
+/// quadrature: Rasmussen, Ghahramani, Bayesian Monte Carlo, NIPS 2002; of the metric: CIE 142, Sharma, Wu,
+/// Dalal 2005.
 Result<Plan> make_plan(const PlannerOptions& options);
 
 /// Errors of a plan over reflectances, by the same measure, for products of `bounces` of them: all of them

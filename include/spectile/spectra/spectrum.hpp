@@ -55,21 +55,21 @@ class ConstantSpectrum : public SpectrumOperations<ConstantSpectrum> {
   double value_;
 };
 
-/// Linear between samples at irregular wavelengths and 0 outside them: what a lamp emits, a sensor's
-/// response. (A MeasuredSpectrum is the same with constant ends: what averaging a reflectance over bands
-/// assumes where nobody measured.)
+/// Linear between samples at irregular wavelengths. Outside them it is 0, as what a lamp emits and a sensor's
+/// response are where nobody measured, or keeps the nearest sample, as a reflectance.
 class PiecewiseLinearSpectrum : public SpectrumOperations<PiecewiseLinearSpectrum> {
  public:
   /// Errors and order as for MeasuredSpectrum::from_samples: sorted, and two samples at one wavelength are a
   /// step there.
   static Result<PiecewiseLinearSpectrum> from_samples(std::span<const double> wavelengths_nm,
-                                                      std::span<const double> values);
-  /// The samples of a measured spectrum, without its constant ends.
-  explicit PiecewiseLinearSpectrum(MeasuredSpectrum samples);
+                                                      std::span<const double> values,
+                                                      Ends ends = Ends::kZero);
+  /// The samples of a measured spectrum; not its ends.
+  explicit PiecewiseLinearSpectrum(MeasuredSpectrum samples, Ends ends = Ends::kZero);
 
   /// At a step, the value on its right; at the last sample, that sample.
   double operator()(double lambda_nm) const noexcept;
-  /// The largest sample, but not below 0, which it is outside.
+  /// The largest sample, but not below 0 where it is that outside.
   double max_value() const noexcept;
   /// Exact; 0 where last is not above first.
   double integral(double first_nm, double last_nm) const noexcept;
@@ -78,11 +78,13 @@ class PiecewiseLinearSpectrum : public SpectrumOperations<PiecewiseLinearSpectru
   PiecewiseLinearSpectrum scaled(double factor) const;
   /// The same samples with constant ends.
   const MeasuredSpectrum& measured() const noexcept { return *samples_; }
+  Ends ends() const noexcept { return ends_; }
   std::span<const double> wavelengths_nm() const noexcept { return samples_->wavelengths_nm(); }
   std::span<const double> values() const noexcept { return samples_->values(); }
 
  private:
-  std::shared_ptr<const MeasuredSpectrum> samples_;
+  std::shared_ptr<const MeasuredSpectrum> samples_;  // with constant ends
+  Ends ends_ = Ends::kZero;
 };
 
 class Spectrum;

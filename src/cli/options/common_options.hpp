@@ -93,6 +93,7 @@ void add_target_options(const Command& command, ColorTarget& target, Adaptation&
 
 /// "SPECTRUM: name, blackbody:KELVIN, ..." for the end of a help text.
 inline const std::string kSpectrumHelp =
-    "SPECTRUM: a name (see spectile spectra), blackbody:KELVIN, daylight:KELVIN, or a file (CSV, CGATS).";
+    "SPECTRUM: a name (see spectile spectra), blackbody:KELVIN, daylight:KELVIN, or FILE[:COLUMN] of\n"
+    "spectra (docs/spectra-files.md).";
 
 }  // namespace spectile::cli

@@ -57,6 +57,7 @@ void add_method_options(const Command& command, MethodArguments& a) {
   command.option("--white", a.white, "SPECTRUM", kColorGroup,
                  "Reference white: RGB 1,1,1 is the perfect diffuser under it; D65 by default");
   add_observer_option(command, a.white_observer, "--white-observer");
+  add_spectrum_options(command, a.spectra);
   add_rgb_input_options(command, a.input_space, a.channels);
   command.choice("--negative", a.negative, kNegatives, kColorGroup,
                  "Components below 0: gamut (as colours out of gamut), clip, keep or error");
@@ -74,7 +75,7 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
   out.bands = take(bands_of(a.bands));
   // D65 by name is the default.
   if (!a.white.empty()) {
-    out.light = take(find_light(a.white));
+    out.light = take(find_light(a.white, file_options(a.spectra)));
     if (lower_case(a.white) == "d65") out.light.reset();
   }
   out.observer = a.white_observer;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/cli/options/common_options.hpp"
+#include "src/cli/options/spectrum_options.hpp"
 #include "src/cli/output/files.hpp"
 #include "src/cli/output/image_report.hpp"
 
@@ -21,6 +21,7 @@ struct MethodArguments {
   std::optional<GamutPolicy> out_of_gamut;
   AlphaMeaning alpha = AlphaMeaning::kPremultiplied;
   ChannelArguments channels;
+  SpectrumArguments spectra;  ///< how --white, and a command's own illuminant, are read
 };
 
 void add_method_options(const Command& command, MethodArguments& a);

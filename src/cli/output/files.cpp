@@ -9,6 +9,7 @@
 #include <map>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/named_spectra.hpp>
+#include <spectile/spectra/spectrum_table.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -73,7 +74,9 @@ std::vector<NamedFile> named_files(const std::vector<std::string>& paths, const 
 std::vector<NamedFile> files_among(const std::vector<NamedFile>& names_or_files) {
   std::vector<NamedFile> out;
   for (const NamedFile& file : names_or_files) {
-    if (!file.path.empty() && !named_spectrum(file.path)) out.push_back(file);
+    if (!file.path.empty() && !named_spectrum(file.path)) {
+      out.push_back({parse_spectrum_path(file.path).file, file.role});
+    }
   }
   return out;
 }

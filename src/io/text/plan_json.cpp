@@ -154,14 +154,14 @@ BandLight light_from(const Json& json) {
   if (!json.contains("spectrum")) {
     auto known = illuminant(text);
     if (!known) throw Refused(named + " has no spectrum, and no illuminant is called so");
-    return {{text, *std::move(known)}, std::move(emission)};
+    return {{text, *std::move(known), {}}, std::move(emission)};
   }
   const Json& spectrum = json["spectrum"];
   const std::string of = "the spectrum of " + named;
   auto samples = MeasuredSpectrum::from_samples(numbers(spectrum, "wavelengths_nm", of, kMaxValues),
-                                                numbers(spectrum, "values", of, kMaxValues));
+                                                numbers(spectrum, "values", of, kMaxValues), Ends::kZero);
   if (!samples) throw Refused(of + ": " + samples.error().message);
-  return {{text, *std::move(samples)}, std::move(emission)};
+  return {{text, *std::move(samples), {}}, std::move(emission)};
 }
 
 /// [[lower, upper], ...], one for each wavelength.

@@ -2,15 +2,19 @@
 // Source of the layout: CGATS.17, and Argyll CMS's documentation of its file formats.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "src/base/errors.hpp"
+#include "src/io/text/spectrum_layout.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile::io {
 namespace {
 
 constexpr double kMaxBands = 100000;
+/// Smaller numbers in the names of fields count something else.
+constexpr double kMinFieldNm = 100;
 
 struct Word {
   std::string_view text;
@@ -109,8 +113,8 @@ class Reader {
       const auto [known, added] = table_.numbers.try_emplace(word, Word{value, number});
       if (!added && known->second.text != value) {
         return line_error(file_, number,
-                          fmt::format("{} is {} here and {} on line {}", word, quoted(value),
-                                      quoted(known->second.text), known->second.line));
+                          fmt::format("{} is {} here and {} on line {}", word, io::quoted(value),
+                                      io::quoted(known->second.text), known->second.line));
       }
     }
     return {};
@@ -132,14 +136,14 @@ Result<double> number_of(const TextFile& file, const Table& table, std::string_v
   const std::optional<double> value = number_in(found->second.text);
   if (!value || !(*value >= least && *value <= most) || (whole && std::trunc(*value) != *value)) {
     return line_error(file, found->second.line,
-                      fmt::format("{} {} is not {} {} to {}", keyword, quoted(found->second.text),
+                      fmt::format("{} {} is not {} {} to {}", keyword, io::quoted(found->second.text),
                                   whole ? "an integer," : "a number,", least, most));
   }
   return *value;
 }
 
-/// Which fields are spectral, in their order. The numbers in their names are not read: real files have
-/// SPEC_383 for 383.33 nm and SPEC_300000 for 300 nm.
+/// Spectral fields in their order, of a table that says how many bands it has and where they lie. The numbers
+/// in their names are not read: real files have SPEC_383 for 383.33 nm and SPEC_300000 for 300 nm.
 Result<std::vector<std::size_t>> spectral_fields(const TextFile& file, const Table& table,
                                                  std::size_t bands) {
   std::vector<std::size_t> out;
@@ -192,9 +196,8 @@ struct SpectralData {
   std::size_t rows = 0;
 };
 
-Result<SpectralData> read_data(const TextFile& file) {
-  SpectralData out;
-  SPECTILE_ASSIGN(out.table, Reader(file).read());
+/// Bands by the keywords that Argyll CMS writes.
+Result<void> place_by_keywords(const TextFile& file, SpectralData& out) {
   SPECTILE_ASSIGN(const auto bands,
                   number_of(file, out.table, "SPECTRAL_BANDS", std::nullopt, true, 2, kMaxBands));
   SPECTILE_ASSIGN(const auto start,
@@ -205,28 +208,80 @@ Result<SpectralData> read_data(const TextFile& file) {
     return line_error(file, out.table.numbers.at("SPECTRAL_END_NM").line,
                       fmt::format("SPECTRAL_END_NM {} is not above SPECTRAL_START_NM {}", end, start));
   }
-  SPECTILE_ASSIGN(out.norm, number_of(file, out.table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300));
   const auto count = static_cast<std::size_t>(bands);
   for (std::size_t i = 0; i < count; ++i) {
     out.wavelengths_nm.push_back(start + (end - start) * static_cast<double>(i) / (bands - 1));
   }
   SPECTILE_ASSIGN(out.places, spectral_fields(file, out.table, count));
+  return {};
+}
+
+/// Bands by the names of fields, nm380 or SPECTRAL_NM380, as other programs write them.
+Result<void> place_by_names(const TextFile& file, SpectralData& out) {
+  for (std::size_t i = 0; i < out.table.fields.size(); ++i) {
+    const std::string_view field = out.table.fields[i];
+    const auto at = number_in(field) ? std::nullopt : wavelength_heading(field, false);
+    if (!at || !(at->value >= kMinFieldNm)) continue;
+    out.places.push_back(i);
+    out.wavelengths_nm.push_back(at->value);
+  }
+  if (out.places.size() >= 2) return {};
+  return make_error(ErrorCode::kBadFile,
+                    "{}: has no SPECTRAL_BANDS, and no fields like SPECTRAL_NM380 either", file.path);
+}
+
+Result<SpectralData> read_data(const TextFile& file) {
+  SpectralData out;
+  SPECTILE_ASSIGN(out.table, Reader(file).read());
+  const bool by_keywords =
+      out.table.numbers.contains("SPECTRAL_BANDS") || out.table.numbers.contains("SPECTRAL_START_NM");
+  if (by_keywords || out.table.format_line == 0) {
+    SPECTILE_TRY(place_by_keywords(file, out));
+  } else {
+    SPECTILE_TRY(place_by_names(file, out));
+  }
+  SPECTILE_ASSIGN(out.norm, number_of(file, out.table, "SPECTRAL_NORM", 1.0, false, 1e-300, 1e300));
   out.fields = out.table.format_line == 0 ? out.places.size() : out.table.fields.size();
   SPECTILE_ASSIGN(out.rows, count_rows(file, out.table, out.fields));
   return out;
 }
 
-Result<SampleLines> row_of(const TextFile& file, const SpectralData& data, std::size_t row) {
-  SampleLines out;
-  out.wavelengths_nm = data.wavelengths_nm;
+Result<RawSpectrum> row_of(const TextFile& file, const SpectralData& data, std::size_t row, RawTable& table) {
+  RawSpectrum out;
+  out.line = static_cast<std::uint32_t>(data.table.data[row * data.fields + data.places.front()].line);
+  bool commas = false;
   for (const std::size_t place : data.places) {
     const Word& word = data.table.data[row * data.fields + place];
-    const std::optional<double> value = number_in(word.text);
-    if (!value) return line_error(file, word.line, quoted(word.text) + " is not a number");
-    const double scaled = *value / data.norm;
-    if (!std::isfinite(scaled)) return line_error(file, word.line, quoted(word.text) + " is not finite");
+    if (word.text.empty()) {
+      ++table.empty_cells;
+      out.values.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    // Only blanks separate words.
+    const auto number = cell_number(word.text, true);
+    if (!number || !number->unit.empty()) {
+      return place_error(file, word.line, word.text.data(), io::quoted(word.text) + " is not a number");
+    }
+    commas = commas || word.text.find(',') != std::string_view::npos;
+    const double scaled = number->value / data.norm;
+    if (!std::isfinite(scaled)) {
+      return place_error(file, word.line, word.text.data(), io::quoted(word.text) + " is not finite");
+    }
     out.values.push_back(scaled);
-    out.lines.push_back(word.line);
+  }
+  if (commas && table.notes.empty()) table.notes.emplace_back("numbers have decimal commas");
+  return out;
+}
+
+/// Names of the rows: the field SAMPLE_NAME or SAMPLE_ID, else numbers from 0.
+std::vector<std::string> row_names(const SpectralData& data) {
+  const auto& fields = data.table.fields;
+  auto field = std::ranges::find(fields, "SAMPLE_NAME");
+  if (field == fields.end()) field = std::ranges::find(fields, "SAMPLE_ID");
+  std::vector<std::string> out;
+  for (std::size_t row = 0; row < data.rows; ++row) {
+    const auto place = row * data.fields + static_cast<std::size_t>(field - fields.begin());
+    out.push_back(field == fields.end() ? std::to_string(row) : std::string(data.table.data[place].text));
   }
   return out;
 }
@@ -240,26 +295,28 @@ bool is_cgats(const TextFile& file) {
     if (!next_word(rest, word) || word.empty()) continue;
     if (first && (word == "SPECT" || word == "CMF" || word.starts_with("CGATS"))) return true;
     first = false;
-    if (word == "SPECTRAL_BANDS" || word == "BEGIN_DATA") return true;
+    if (word == "SPECTRAL_BANDS" || word == "BEGIN_DATA" || word == "BEGIN_DATA_FORMAT") return true;
   }
   return false;
 }
 
-Result<SampleLines> read_cgats(const TextFile& file, std::size_t column) {
+Result<RawTable> read_cgats(const TextFile& file, const ColumnChoice& choice) {
   SPECTILE_ASSIGN(const auto data, read_data(file));
-  if (column >= data.rows) {
-    return make_error(ErrorCode::kBadArgument, "{}: has {} data row{}, counted from 0; there is no {}",
-                      file.path, data.rows, data.rows == 1 ? "" : "s", column);
+  RawTable out;
+  out.sure_of_unit = true;
+  out.first_by_default = true;
+  out.axes.push_back({data.wavelengths_nm, std::vector<std::uint32_t>(data.wavelengths_nm.size(), 0)});
+  const std::vector<std::string> names = row_names(data);
+  std::size_t first = 0;
+  std::size_t last = data.rows;
+  if (choice.number || !choice.name.empty()) {
+    SPECTILE_ASSIGN(first, chosen(file, names, choice, "data row", out.notes));
+    last = first + 1;
   }
-  return row_of(file, data, column);
-}
-
-Result<std::vector<SampleLines>> read_all_cgats(const TextFile& file) {
-  SPECTILE_ASSIGN(const auto data, read_data(file));
-  std::vector<SampleLines> out;
-  for (std::size_t row = 0; row < data.rows; ++row) {
-    SPECTILE_ASSIGN(auto samples, row_of(file, data, row));
-    out.push_back(std::move(samples));
+  for (std::size_t row = first; row < last; ++row) {
+    SPECTILE_ASSIGN(auto spectrum, row_of(file, data, row, out));
+    spectrum.name = names[row];
+    out.spectra.push_back(std::move(spectrum));
   }
   return out;
 }

@@ -1,249 +1,330 @@
-// Text files as lines, and columns of wavelengths and values in them.
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cerrno>
+// Columns, pairs, lists by name and rows of spectra, read as their layout says.
 #include <cmath>
+#include <limits>
 #include <map>
 
-#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
-#include "src/base/text.hpp"
+#include "src/io/text/spectrum_headings.hpp"
+#include "src/io/text/spectrum_layout.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile::io {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
-constexpr std::string_view kSeparators = ",; \t\f\v";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Fills `text`; the error of the system where there is one.
-int read_all(int descriptor, std::string& text) {
-  std::array<char, 65536> buffer;
-  while (text.size() <= kMaxBytes) {
-    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return errno;
-    if (got == 0) break;
-    text.append(buffer.data(), static_cast<std::size_t>(got));
-  }
-  return 0;
-}
-
-std::vector<std::string_view> split_lines(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end);
-    if (text.starts_with("\r\n")) text.remove_prefix(1);
-    if (!text.empty()) text.remove_prefix(1);
-  }
-  return lines;
-}
-
-std::string_view next_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kSeparators), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-/// A heading begins like a word: a damaged number is none.
-bool begins_like_a_word(std::string_view word) {
-  return std::isdigit(static_cast<unsigned char>(word.front())) == 0 &&
-         std::string_view("+-.").find(word.front()) == std::string_view::npos;
-}
-
-}  // namespace
-
-Result<TextFile> read_text_file(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return system_error(path, "read", errno);
-  if (!S_ISREG(status.st_mode))
-    return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
-  // Does not wait for a writer, should the file have become a pipe meanwhile.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return system_error(path, "read", errno);
-  TextFile file;
-  file.path = path;
-  file.text = std::make_unique<std::string>();
-  std::string& text = *file.text;
-  const int failed = read_all(descriptor, text);
-  ::close(descriptor);
-  if (failed != 0) return system_error(path, "read", failed);
-  if (text.size() > kMaxBytes) {
-    return make_error(ErrorCode::kBadFile, "{}: is larger than 64 MiB, which no spectrum's text is", path);
-  }
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  file.lines = split_lines(text);
-  for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    for (const char c : file.lines[i]) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte >= 32 || std::isspace(byte) != 0) continue;
-      return line_error(file, i + 1, fmt::format("holds a byte of value {}; this is no text", byte));
-    }
-  }
-  return file;
-}
-
-Error line_error(const TextFile& file, std::size_t line, const std::string& what) {
-  return make_error(ErrorCode::kBadFile, "{}: line {}: {}", file.path, line, what);
-}
-
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kMost = 60;
-  const std::size_t end = text.find_last_not_of(kSeparators);
-  text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
-  if (text.size() <= kMost) return fmt::format("\"{}\"", text);
-  std::size_t length = kMost;
-  // Not within a character of UTF-8.
-  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
-  return fmt::format("\"{}...\"", text.substr(0, length));
-}
-
-std::optional<double> number_in(std::string_view word) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
-  return parse_number<double>(word);
-}
-
-Result<SampleLines> read_columns(const TextFile& file) {
-  SampleLines out;
-  for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    std::string_view rest = file.lines[i];
-    const std::string_view first = next_word(rest);
-    if (first.empty() || first.front() == '#') continue;
-    const std::optional<double> wavelength = number_in(first);
-    if (!wavelength && out.values.empty() && begins_like_a_word(first)) continue;
-    const std::optional<double> value = number_in(next_word(rest));
-    if (!wavelength || !value || !next_word(rest).empty()) {
-      return line_error(file, i + 1, quoted(file.lines[i]) + " is not a wavelength in nm and a value");
-    }
-    if (!std::isfinite(*wavelength) || !std::isfinite(*value)) {
-      return line_error(file, i + 1, quoted(file.lines[i]) + " is not finite");
-    }
-    out.wavelengths_nm.push_back(*wavelength);
-    out.values.push_back(*value);
-    out.lines.push_back(i + 1);
-  }
-  if (out.values.empty()) {
-    return make_error(ErrorCode::kBadFile, "{}: holds no sample, which is a line \"wavelength_nm,value\"",
-                      file.path);
-  }
-  return out;
-}
-
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kSeparators), text.size()));
-  return text.substr(0, text.find_last_not_of(kSeparators) + 1);
-}
-
-/// A line "name,wavelength_nm,value"; names may hold spaces, so those do not separate.
-struct NamedSample {
-  std::string_view name;
-  double wavelength_nm = 0;
-  double value = 0;
-};
-
-std::optional<NamedSample> named_sample(std::string_view line) {
-  for (const char separator : {',', ';', '\t'}) {
-    if (line.find(separator) == std::string_view::npos) continue;
-    const auto fields = split(line, separator);
-    if (fields.size() != 3) return {};
-    const std::string_view name = trimmed(fields[0]);
-    const auto wavelength = number_in(trimmed(fields[1]));
-    const auto value = number_in(trimmed(fields[2]));
-    if (name.empty() || number_in(name) || !wavelength || !value) return {};
-    return NamedSample{name, *wavelength, *value};
-  }
-  return {};
-}
-
-/// Spectra side by side, or one below the other under their names; the first line of samples tells which.
-class SpectraReader {
+class ColumnsReader {
  public:
-  explicit SpectraReader(const TextFile& file) : file_(file) {}
+  ColumnsReader(const TextFile& file, std::optional<WavelengthUnit> stated) : file_(file), stated_(stated) {}
 
-  Result<std::vector<SampleLines>> read() {
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) SPECTILE_TRY(line(file_.lines[i], i + 1));
-    if (spectra_.empty()) {
+  Result<RawTable> read() {
+    layout_ = find_layout(file_, stated_);
+    SPECTILE_TRY(check_layout());
+    SPECTILE_TRY(take_headings());
+    for (std::size_t i = layout_.first_line; i <= file_.lines.size(); ++i) {
+      const std::string_view text = without_comment(file_.lines[i - 1]);
+      if (text.empty()) continue;
+      split_cells(text, layout_.format, cells_);
+      if (!cells_.empty()) SPECTILE_TRY(line(text, i));
+    }
+    SPECTILE_TRY(check_table());
+    finish_notes();
+    return std::move(out_);
+  }
+
+ private:
+  bool decimal() const { return layout_.format.decimal_comma; }
+  bool is_rows() const {
+    return layout_.arrangement == Arrangement::kRows || layout_.arrangement == Arrangement::kNamelessRows;
+  }
+
+  Result<void> check_layout() const {
+    if (layout_.first_line == 0 && layout_.orphan_line != 0) {
+      return line_error(file_, layout_.orphan_line,
+                        "a name and values, but no heading row of wavelengths says where they lie");
+    }
+    if (layout_.first_line == 0) {
       return make_error(ErrorCode::kBadFile,
                         "{}: holds no sample, which is a line \"wavelength_nm,value,...\" or "
                         "\"name,wavelength_nm,value\"",
                         file_.path);
     }
-    return std::move(spectra_);
+    if (layout_.two_readings) {
+      return line_error(file_, layout_.heading_line,
+                        "both the first row and the first column could be wavelengths; begin the row with "
+                        "\"wavelength\" where the column is, with \"name\" and names where the row is");
+    }
+    return {};
   }
 
- private:
+  Result<void> take_headings() {
+    TableHeadings found = read_headings(file_, layout_);
+    if (!found.unknown_unit.empty() && !stated_) {
+      return make_error(ErrorCode::kBadFile,
+                        "{}: wavelengths in {} are not read, only nm, um, m, angstrom and cm^-1", file_.path,
+                        found.unknown_unit);
+    }
+    out_.unit = found.unit;
+    if (found.unit) out_.unit_source = "as its heading says";
+    out_.quantity = std::move(found.quantity);
+    all_percent_ = found.percent;
+    headings_ = std::move(found.cells);
+    return {};
+  }
+
   Result<void> line(std::string_view text, std::size_t number) {
-    std::string_view rest = text;
-    const std::string_view first = next_word(rest);
-    if (first.empty() || first.front() == '#') return {};
-    if (spectra_.empty() || named_) {
-      if (const auto sample = named_sample(text)) {
-        named_ = true;
-        const auto at = places_.try_emplace(sample->name, spectra_.size()).first->second;
-        return add(at, sample->wavelength_nm, sample->value, number);
-      }
-      if (named_)
-        return line_error(file_, number, quoted(text) + " is not a name, a wavelength in nm and a value");
+    switch (layout_.arrangement) {
+      case Arrangement::kColumns:
+        return sample(text, number);
+      case Arrangement::kPairs:
+        return sample_pairs(number);
+      case Arrangement::kNamed:
+        return named_sample(text, number);
+      case Arrangement::kRows:
+      case Arrangement::kNamelessRows:
+        return row(text, number);
     }
-    const std::optional<double> wavelength = number_in(first);
-    if (!wavelength && spectra_.empty() && begins_like_a_word(first)) return {};
-    std::size_t values = 0;
-    for (std::string_view word = next_word(rest); wavelength && !word.empty(); word = next_word(rest)) {
-      const std::optional<double> value = number_in(word);
-      if (!value) return line_error(file_, number, quoted(word) + " is not a number");
-      if (columns_ > 0 && values == columns_) return wrong_count(number, "more");
-      SPECTILE_TRY(add(values, *wavelength, *value, number));
-      ++values;
-    }
-    if (values == 0) return line_error(file_, number, quoted(text) + " is not a wavelength in nm and values");
-    if (columns_ > 0 && values < columns_) return wrong_count(number, "fewer");
-    columns_ = values;
     return {};
   }
 
-  Error wrong_count(std::size_t number, const char* execution) const {
-    return line_error(
-        file_, number,
-        fmt::format("has {} values than the first line of samples, which has {}", execution, columns_));
+  Error no_sample(std::string_view text, std::size_t number, std::string_view cell) const {
+    return place_error(
+        file_, number, cell.data() == nullptr ? text.data() : cell.data(),
+        io::quoted(text) + (columns_ > 1 || several_ ? " is not a wavelength in nm and values"
+                                                     : " is not a wavelength in nm and a value"));
   }
 
-  Result<void> add(std::size_t at, double wavelength_nm, double value, std::size_t number) {
-    if (!std::isfinite(wavelength_nm) || !std::isfinite(value)) {
-      return line_error(file_, number, quoted(file_.lines[number - 1]) + " is not finite");
+  Result<WavelengthCell> wavelength(std::string_view text, std::size_t number, std::string_view cell) {
+    const auto found = wavelength_cell(cell, decimal());
+    if (!found) return no_sample(text, number, cell);
+    if (!std::isfinite(found->value))
+      return place_error(file_, number, cell.data(), io::quoted(text) + " is not finite");
+    if (found->unit) SPECTILE_TRY(unit_of_cell(*found->unit, number, cell));
+    return *found;
+  }
+
+  Result<void> unit_of_cell(WavelengthUnit unit, std::size_t number, std::string_view cell) {
+    if (!cell_unit_) {
+      cell_unit_ = out_.unit = unit;
+      out_.unit_source = "as its numbers say";
     }
-    if (at >= kMaxSpectra) {
-      return line_error(file_, number, fmt::format("holds more than {} spectra", kMaxSpectra));
+    if (*cell_unit_ == unit) return {};
+    return place_error(file_, number, cell.data(),
+                       fmt::format("{} is in {}, the first wavelength in {}", io::quoted(cell),
+                                   to_string(unit), to_string(*cell_unit_)));
+  }
+
+  /// The value of a cell, NaN for an empty one. `text` is quoted where the line holds one value.
+  Result<double> value(std::string_view text, std::size_t number, std::string_view cell, std::size_t column) {
+    if (cell.empty()) {
+      ++out_.empty_cells;
+      return kNaN;
     }
-    if (at == spectra_.size()) spectra_.emplace_back();
-    spectra_[at].wavelengths_nm.push_back(wavelength_nm);
-    spectra_[at].values.push_back(value);
-    spectra_[at].lines.push_back(number);
+    const auto found = cell_number(cell, decimal());
+    if (!found || !is_value_unit(found->unit)) {
+      if (columns_ <= 1 && !several_ && layout_.arrangement == Arrangement::kColumns)
+        return no_sample(text, number, cell);
+      return place_error(file_, number, cell.data(), io::quoted(cell) + " is not a number");
+    }
+    if (!std::isfinite(found->value))
+      return place_error(file_, number, cell.data(), io::quoted(text) + " is not finite");
+    if (column >= units_.size()) units_.resize(column + 1);
+    if (!units_[column]) units_[column] = found->unit;
+    if (const std::string_view known = *units_[column]; known != found->unit) {
+      return place_error(file_, number, cell.data(),
+                         fmt::format("{} has another unit than the first value, {}", io::quoted(cell),
+                                     known.empty() ? "none" : io::quoted(known)));
+    }
+    return found->value;
+  }
+
+  /// Percent, or a power with its prefix and what it is per.
+  static bool is_value_unit(std::string_view unit) {
+    if (unit.empty() || unit == "%") return true;
+    const std::size_t watts = unit.find('W');
+    return watts <= 2 && unit.find_first_of(" ,;") == std::string_view::npos &&
+           unit.find_first_of("0123456789") > watts;
+  }
+
+  bool outside_run(std::size_t sample) const {
+    return layout_.run_count > 0 &&
+           (sample < layout_.run_first || sample >= layout_.run_first + layout_.run_count);
+  }
+
+  Result<void> sample(std::string_view text, std::size_t number) {
+    if (layout_.labelled && !wavelength_cell(cells_.front(), decimal())) return {};
+    if (outside_run(samples_++)) return {};
+    if (out_.axes.empty()) {
+      out_.axes.emplace_back();
+      columns_ = 0;
+    }
+    std::size_t count = cells_.size() - 1;
+    if (columns_ > 0 && count != columns_) {
+      while (count > columns_ && cells_[count].empty()) --count;
+    }
+    several_ = columns_ == 0 && count > 1;
+    SPECTILE_ASSIGN(const auto at, wavelength(text, number, cells_.front()));
+    if (count == 0) return no_sample(text, number, cells_.front());
+    if (columns_ > 0 && count != columns_) {
+      if (columns_ == 1) return no_sample(text, number, count > 1 ? cells_[2] : std::string_view());
+      return line_error(file_, number,
+                        fmt::format("has {} values than the first line of samples, which has {}",
+                                    count < columns_ ? "fewer" : "more", columns_));
+    }
+    if (count > kMaxSpectra) return too_many(number);
+    if (columns_ == 0) out_.spectra.resize(count);
+    columns_ = count;
+    out_.axes.front().wavelengths.push_back(at.value);
+    out_.axes.front().lines.push_back(static_cast<std::uint32_t>(number));
+    for (std::size_t c = 0; c < count; ++c) {
+      SPECTILE_ASSIGN(const auto v, value(text, number, cells_[c + 1], c));
+      out_.spectra[c].values.push_back(v);
+    }
     return {};
   }
 
-  static constexpr std::size_t kMaxSpectra = 100000;
+  Result<void> sample_pairs(std::size_t number) {
+    if (out_.axes.empty()) {
+      out_.axes.emplace_back();
+      out_.spectra.emplace_back();
+    }
+    columns_ = 2;  // a line holds more than one value
+    while (!cells_.empty() && cells_.back().empty()) cells_.pop_back();
+    if (cells_.size() % 2 != 0) {
+      return place_error(file_, number, cells_.back().data(), "a wavelength without its value");
+    }
+    for (std::size_t i = 0; i < cells_.size(); i += 2) {
+      SPECTILE_ASSIGN(const auto at, wavelength(cells_[i], number, cells_[i]));
+      SPECTILE_ASSIGN(const auto v, value(cells_[i + 1], number, cells_[i + 1], 0));
+      out_.axes.front().wavelengths.push_back(at.value);
+      out_.axes.front().lines.push_back(static_cast<std::uint32_t>(number));
+      out_.spectra.front().values.push_back(v);
+    }
+    return {};
+  }
+
+  Result<void> named_sample(std::string_view text, std::size_t number) {
+    columns_ = 2;
+    const auto at = cells_.size() == 3 ? wavelength_cell(cells_[1], decimal()) : std::nullopt;
+    const auto v = cells_.size() == 3 ? cell_number(cells_[2], decimal()) : std::nullopt;
+    if (!at || !v || !is_value_unit(v->unit) || cells_[0].empty() || number_in(cells_[0])) {
+      return place_error(file_, number, text.data(),
+                         io::quoted(text) + " is not a name, a wavelength in nm and a value");
+    }
+    if (!std::isfinite(at->value) || !std::isfinite(v->value)) {
+      return place_error(file_, number, cells_[1].data(), io::quoted(text) + " is not finite");
+    }
+    const auto [known, added] = places_.try_emplace(cells_[0], out_.spectra.size());
+    if (added) {
+      if (out_.spectra.size() >= kMaxSpectra) return too_many(number);
+      out_.axes.emplace_back();
+      out_.spectra.push_back({std::string(cells_[0]), known->second, {}, 0, v->unit == "%"});
+    }
+    RawAxis& axis = out_.axes[known->second];
+    axis.wavelengths.push_back(at->value);
+    axis.lines.push_back(static_cast<std::uint32_t>(number));
+    out_.spectra[known->second].values.push_back(v->value);
+    return {};
+  }
+
+  Result<void> row(std::string_view text, std::size_t number) {
+    const std::size_t name = layout_.arrangement == Arrangement::kRows ? 1 : 0;
+    columns_ = 2;
+    if (out_.axes.empty()) {
+      const bool itself = name == 0;
+      SPECTILE_TRY(row_of_wavelengths(itself ? number : layout_.heading_line, name));
+      if (itself) return {};
+      split_cells(text, layout_.format, cells_);
+    }
+    if (cells_.size() != out_.axes.front().wavelengths.size() + name) {
+      return line_error(
+          file_, number,
+          fmt::format("has {} values for {} wavelengths", cells_.size() - std::min(cells_.size(), name),
+                      out_.axes.front().wavelengths.size()));
+    }
+    if (out_.spectra.size() >= kMaxSpectra) return too_many(number);
+    RawSpectrum s;
+    if (name == 1) s.name = cells_.front();
+    s.line = static_cast<std::uint32_t>(number);
+    for (std::size_t i = name; i < cells_.size(); ++i) {
+      SPECTILE_ASSIGN(const auto v, value(text, number, cells_[i], 0));
+      s.values.push_back(v);
+    }
+    out_.spectra.push_back(std::move(s));
+    return {};
+  }
+
+  Result<void> row_of_wavelengths(std::size_t number, std::size_t name) {
+    out_.axes.emplace_back();
+    split_cells(without_comment(file_.lines[number - 1]), layout_.format, cells_);
+    for (std::size_t i = name; i < cells_.size(); ++i) {
+      const auto at = wavelength_heading(cells_[i], decimal());
+      if (!at)
+        return place_error(file_, number, cells_[i].data(), io::quoted(cells_[i]) + " is not a wavelength");
+      if (at->unit) SPECTILE_TRY(unit_of_cell(*at->unit, number, cells_[i]));
+      out_.axes.front().wavelengths.push_back(at->value);
+      out_.axes.front().lines.push_back(static_cast<std::uint32_t>(number));
+    }
+    return {};
+  }
+
+  Error too_many(std::size_t number) const {
+    return line_error(file_, number, fmt::format("holds more than {} spectra", kMaxSpectra));
+  }
+
+  Result<void> check_table() {
+    if (out_.spectra.empty()) {
+      return line_error(file_, layout_.first_line, "wavelengths without a row of values");
+    }
+    // A column that is empty throughout is a separator at the end of each line.
+    const bool named = headings_.size() == columns_ + 1;
+    for (std::size_t c = out_.spectra.size(); c-- > 0 && layout_.arrangement == Arrangement::kColumns;) {
+      RawSpectrum& s = out_.spectra[c];
+      if (named) s.name = headings_[c + 1];
+      const bool holds_values = c < units_.size() && units_[c];
+      s.percent = all_percent_ || says_percent(s.name) || (holds_values && *units_[c] == "%");
+      if (holds_values || out_.spectra.size() == 1) continue;
+      out_.empty_cells -= s.values.size();
+      out_.spectra.erase(out_.spectra.begin() + static_cast<std::ptrdiff_t>(c));
+    }
+    const bool percent = !units_.empty() && units_.front() && *units_.front() == "%";
+    for (std::size_t i = 0; i < out_.spectra.size(); ++i) {
+      RawSpectrum& s = out_.spectra[i];
+      if (s.name.empty()) s.name = std::to_string(i);
+      if (layout_.arrangement == Arrangement::kColumns) continue;
+      s.percent = s.percent || all_percent_ || percent;
+    }
+    return {};
+  }
+
+  void finish_notes() {
+    if (decimal()) out_.notes.emplace_back("numbers have decimal commas");
+    if (is_rows()) out_.notes.emplace_back("a spectrum in each row, wavelengths in the first");
+    if (layout_.run_count > 0) {
+      out_.notes.push_back(fmt::format("holds {} runs of wavelengths; the one of {} samples is read",
+                                       layout_.runs, layout_.run_count));
+    }
+  }
+
   const TextFile& file_;
-  std::vector<SampleLines> spectra_;
-  std::size_t columns_ = 0;  // of the first line of samples
-  bool named_ = false;
+  std::optional<WavelengthUnit> stated_;
+  Layout layout_;
+  RawTable out_;
+  std::vector<std::string_view> cells_;
+  std::vector<std::string> headings_;
+  std::optional<WavelengthUnit> cell_unit_;
+  bool all_percent_ = false;
+  std::size_t columns_ = 0;  // values of the first line of samples
+  bool several_ = false;     // that line holds more than one
+  std::size_t samples_ = 0;
+  std::vector<std::optional<std::string_view>> units_;  // behind the values of a column
   std::map<std::string_view, std::size_t> places_;
 };
 
 }  // namespace
 
-Result<std::vector<SampleLines>> read_all_columns(const TextFile& file) {
-  return SpectraReader(file).read();
+Result<RawTable> read_columns(const TextFile& file, std::optional<WavelengthUnit> stated_unit) {
+  return ColumnsReader(file, stated_unit).read();
 }
 
 }  // namespace spectile::io

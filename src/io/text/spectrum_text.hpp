@@ -1,59 +1,93 @@
-// Text files of spectra: their lines, numbers and errors; columns and CGATS are read to samples.
+// Tables of spectra as files hold them, before units and missing samples are known.
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <spectile/result.hpp>
+#include <spectile/spectra/spectrum_table.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "src/io/text/text_file.hpp"
+
 namespace spectile::io {
 
-/// A whole text file, of at most 64 MiB: a spectrum at every picometre is 20 MB.
-struct TextFile {
-  std::string path;
-  std::unique_ptr<std::string> text;    ///< without a byte order mark; `lines` point into it
-  std::vector<std::string_view> lines;  ///< end in \n, \r\n or \r, which they do not hold
+inline constexpr std::size_t kMaxSpectra = 100000;
+
+/// Wavelengths that spectra share, in the unit of the file, each with the number of its line.
+struct RawAxis {
+  std::vector<double> wavelengths;
+  std::vector<std::uint32_t> lines;  ///< 0: of no line of its own
 };
 
-/// Errors: kBadFile for what is no plain file, too large, or binary (a byte below 32 that is not white space;
-/// with the line's number); kNoPermission.
-Result<TextFile> read_text_file(const std::string& path);
-
-/// "PATH: line N: ...", with what is wrong there.
-Error line_error(const TextFile& file, std::size_t line, const std::string& what);
-
-/// A line or word for use in an error, in quotation marks, not all of it where it is long.
-std::string quoted(std::string_view text);
-
-/// The number that a word is, infinite and NaN too; nothing where it is none or beyond the range of double.
-std::optional<double> number_in(std::string_view word);
-
-/// Samples as they are in a file, unsorted, each with the number of its line.
-struct SampleLines {
-  std::vector<double> wavelengths_nm;
-  std::vector<double> values;
-  std::vector<std::size_t> lines;
+/// Values as a file has them. Shapes: as many as wavelengths of the axis.
+struct RawSpectrum {
+  std::string name;
+  std::size_t axis = 0;
+  std::vector<double> values;  ///< NaN: an empty cell
+  std::uint32_t line = 0;      ///< of all values; 0: those of the axis
+  bool percent = false;
 };
 
-/// Columns "wavelength_nm value"; see load_spectrum.
-Result<SampleLines> read_columns(const TextFile& file);
+/// The spectra of a file, unsorted, and what it says about them.
+struct RawTable {
+  std::vector<RawAxis> axes;
+  std::vector<RawSpectrum> spectra;
+  std::optional<WavelengthUnit> unit;  ///< as the file states it
+  std::string unit_source;             ///< "as its heading says"
+  bool sure_of_unit = false;           ///< nm by definition of the format
+  std::string quantity;                ///< that headings name: "reflectance", or empty
+  std::size_t empty_cells = 0;
+  bool first_by_default = false;   ///< of several the first is taken where one is asked for
+  std::vector<std::string> notes;  ///< without the file's name
+};
 
-/// The samples of every spectrum in a text of columns: lines "wavelength_nm value value ...", or lines
-/// "name,wavelength_nm,value" that are put together by name; see load_spectra.
-Result<std::vector<SampleLines>> read_all_columns(const TextFile& file);
+/// Where one spectrum of a file is wanted: its name, or its number from 0.
+struct ColumnChoice {
+  std::string name;                   ///< empty: by number
+  std::optional<std::size_t> number;  ///< none and no name: any
+};
+
+/// Columns, pairs, lists by name and rows under wavelengths; see load_spectrum_table(). Errors: kBadFile.
+Result<RawTable> read_columns(const TextFile& file, std::optional<WavelengthUnit> stated_unit);
 
 /// True if a text is CGATS: its first word is SPECT, CMF or CGATS and something, or a line begins with
-/// SPECTRAL_BANDS or BEGIN_DATA.
+/// SPECTRAL_BANDS, BEGIN_DATA or BEGIN_DATA_FORMAT.
 bool is_cgats(const TextFile& file);
 
-/// Row `column` of CGATS's data; see load_spectrum. Errors: kBadFile; kBadArgument for a row that there is
-/// not.
-Result<SampleLines> read_cgats(const TextFile& file, std::size_t column);
+/// All rows of CGATS data, or the chosen one. Errors: kBadFile; kBadArgument for a row that there is not.
+Result<RawTable> read_cgats(const TextFile& file, const ColumnChoice& choice);
 
-/// All rows of it. Errors: kBadFile.
-Result<std::vector<SampleLines>> read_all_cgats(const TextFile& file);
+/// True if a text is XML.
+bool is_xml(const TextFile& file);
+
+/// IES TM-27. Errors: kBadFile.
+Result<RawTable> read_spdx(const TextFile& file);
+
+/// The spectrum that is chosen among names; a name wins over a number, which is noted. Errors: kBadArgument
+/// for one that there is not, listing what there is.
+Result<std::size_t> chosen(const TextFile& file, const std::vector<std::string>& names,
+                           const ColumnChoice& choice, const char* noun, std::vector<std::string>& notes);
+
+/// A few of the names, for an error or a note: "a, b, c and 21 more".
+std::string list_names(const std::vector<std::string>& names);
+
+/// The unit in which wavelengths lie in the visible range, where there is no doubt.
+struct UnitGuess {
+  std::optional<WavelengthUnit> unit;     ///< none: none does, or two do
+  std::optional<WavelengthUnit> another;  ///< in which they could be as well
+};
+UnitGuess guess_unit(const std::vector<double>& wavelengths);
+
+/// In nm, without what multiplying by a power of ten adds in the last bits.
+double in_nm(double wavelength, WavelengthUnit unit);
+
+/// True if samples lie within the visible range, or on both sides of it.
+bool covers_visible(const std::vector<double>& wavelengths, WavelengthUnit unit);
+
+/// Spectra in nm with what there is to say about them. Errors: as for load_spectrum_table().
+Result<SpectrumTable> finish_table(const TextFile& file, RawTable raw, const SpectrumFileOptions& options);
 
 }  // namespace spectile::io

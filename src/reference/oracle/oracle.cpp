@@ -108,7 +108,7 @@ std::vector<std::array<double, 7>> smits_basis(Method method, Quantity quantity,
                                                              : data::kSmitsReflectance;
   std::vector<std::array<double, 7>> out(bands.count());
   const data::NamedTable& d65 = table_of("D65");
-  const auto d65_at = [&](double l) { return at_even(d65.first_nm, d65.step_nm, d65.values, l, false); };
+  const auto d65_at = [&](double l) { return at_even(d65.first_nm, d65.step_nm, d65.values, l, true); };
   double unit = 1;
   if (light && method == Method::kSmits1999) {
     const auto& y = data::kCie1931;

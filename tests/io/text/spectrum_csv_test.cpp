@@ -69,14 +69,14 @@ TEST_F(SpectrumCsv, ReadsEverySeparator) {
 }
 
 TEST_F(SpectrumCsv, NumbersAreIndependentOfTheLocale) {
-  expect_bad_line("400;0,5\n", "1");  // a comma separates, it is no decimal mark
+  expect_samples("400;0,5\n500;1,25\n");  // a semicolon separates, so that a comma does not
 }
 
 TEST_F(SpectrumCsv, BadLineIsNamedByItsNumber) {
   expect_bad_line("400,0.5\n500\n", "2");
   expect_bad_line("nm,v\n# c\n400,0.5\n\n500,abc\n", "5");
   expect_bad_line("400,0.5\nabc,1\n", "2");
-  expect_bad_line("400,0.5,7\n", "1");
+  expect_bad_line("400,0.5,7\n500,1,7\n", "1");
   expect_bad_line("400\n", "1");
   expect_bad_line("400,0.5x\n", "1");
   expect_bad_line("400,0.5\n500,1e999\n", "2");
@@ -118,7 +118,7 @@ TEST_F(SpectrumCsv, DirectoryIsAnError) {
 
 TEST_F(SpectrumCsv, FileThatMayNotBeReadIsNoPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "the superuser may read everything";
-  ASSERT_TRUE(load("400,1\n"));
+  ASSERT_TRUE(load("400,1\n500,1\n"));
   ASSERT_EQ(::chmod(path_.c_str(), 0), 0);
   EXPECT_EQ(code_of(load_spectrum_csv(path_)), code(ErrorCode::kNoPermission));
 }

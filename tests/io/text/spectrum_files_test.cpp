@@ -17,12 +17,12 @@ namespace {
 class SpectrumFiles : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
-  Result<Spectrum> load(const std::string& text, std::size_t column = 0) {
+  Result<Spectrum> load(const std::string& text, std::optional<std::size_t> column = {}) {
     std::ofstream(path_, std::ios::binary) << text;
     return load_spectrum(path_, column);
   }
   void expect_samples(const std::string& text, const std::vector<double>& wavelengths,
-                      const std::vector<double>& values, std::size_t column = 0) {
+                      const std::vector<double>& values, std::optional<std::size_t> column = {}) {
     const auto s = load(text, column);
     ASSERT_TRUE(s) << text << "\n" << s.error().message;
     const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&s->kind());
@@ -32,8 +32,8 @@ class SpectrumFiles : public testing::Test {
   }
   void expect_two(const std::string& text) { expect_samples(text, {400, 500}, {0.5, 1.25}); }
   /// `message` is what follows "PATH: ".
-  void expect_error(const std::string& text, const std::string& message, std::size_t column = 0,
-                    ErrorCode code = ErrorCode::kBadFile) {
+  void expect_error(const std::string& text, const std::string& message,
+                    std::optional<std::size_t> column = {}, ErrorCode code = ErrorCode::kBadFile) {
     const auto s = load(text, column);
     ASSERT_FALSE(s) << text;
     EXPECT_EQ(s.error().code, code) << text;
@@ -120,14 +120,15 @@ TEST_F(SpectrumFiles, SpectrumWithoutWidthIsAnError) {
 TEST_F(SpectrumFiles, NoSampleIsAnError) {
   for (const char* text :
        {"", "\n\n", "\xEF\xBB\xBF", "# nothing\n", "nm,value\n", "Only words.\nAnd more.\n"}) {
-    expect_error(text, "holds no sample, which is a line \"wavelength_nm,value\"");
+    expect_error(
+        text, "holds no sample, which is a line \"wavelength_nm,value,...\" or \"name,wavelength_nm,value\"");
   }
 }
 
 TEST_F(SpectrumFiles, NumberThatIsNotFiniteIsNamedByItsLine) {
-  expect_error("400,1\n500,nan\n", "line 2: \"500,nan\" is not finite");
-  expect_error("400,1\ninf,1\n", "line 2: \"inf,1\" is not finite");
-  expect_error("400,1\n500,1e999\n", "line 2: \"500,1e999\" is not a wavelength in nm and a value");
+  expect_error("400,1\n500,nan\n", "line 2, column 5: \"500,nan\" is not finite");
+  expect_error("400,1\ninf,1\n", "line 2, column 1: \"inf,1\" is not finite");
+  expect_error("400,1\n500,1e999\n", "line 2, column 5: \"500,1e999\" is not a wavelength in nm and a value");
 }
 
 TEST_F(SpectrumFiles, WavelengthNotAboveZeroIsNamedByItsLine) {
@@ -136,12 +137,12 @@ TEST_F(SpectrumFiles, WavelengthNotAboveZeroIsNamedByItsLine) {
 }
 
 TEST_F(SpectrumFiles, LineThatIsNoSampleIsNamedByItsNumber) {
-  expect_error("400,1\n500\n", "line 2: \"500\" is not a wavelength in nm and a value");
-  expect_error("400,1,2\n", "line 1: \"400,1,2\" is not a wavelength in nm and a value");
-  expect_error("400;0,5\n500;1\n", "line 1: \"400;0,5\" is not a wavelength in nm and a value");
-  expect_error("nm,v\n4o0,1\n500,2\n", "line 2: \"4o0,1\" is not a wavelength in nm and a value");
-  expect_error("400,1\nwords\n", "line 2: \"words\" is not a wavelength in nm and a value");
-  expect_error("400,1\r\n\r\n500,x\r\n", "line 3: \"500,x\" is not a wavelength in nm and a value");
+  expect_error("400,1\n500\n", "line 2, column 1: \"500\" is not a wavelength in nm and a value");
+  expect_error("400,1,2\n500,1,2\n",
+               "line 1: the file holds 2 spectra: 0, 1; choose one as FILE:NAME or FILE:NUMBER, from 0");
+  expect_error("nm,v\n4o0,1\n500,2\n", "line 2, column 1: \"4o0,1\" is not a wavelength in nm and a value");
+  expect_error("400,1\nwords\n", "line 2, column 1: \"words\" is not a wavelength in nm and a value");
+  expect_error("400,1\r\n\r\n500,x\r\n", "line 3, column 5: \"500,x\" is not a wavelength in nm and a value");
 }
 
 TEST_F(SpectrumFiles, LongLineIsNotQuotedWhole) {
@@ -164,11 +165,11 @@ TEST_F(SpectrumFiles, ManySamplesAreRead) {
 TEST_F(SpectrumFiles, BinaryIsAnErrorThatNamesTheByte) {
   expect_error(std::string("400,1\n\0\0\x7F", 9), "line 2: holds a byte of value 0; this is no text");
   expect_error("\x89PNG\r\n\x1A\n", "line 2: holds a byte of value 26; this is no text");
-  // UTF-16.
+  // Half a character of UTF-16.
   expect_error(std::string("\xFF\xFE"
                            "4\0"
-                           "0\0",
-                           6),
+                           "0",
+                           5),
                "line 1: holds a byte of value 0; this is no text");
 }
 
@@ -287,11 +288,11 @@ TEST_F(SpectrumFiles, CgatsNormIsAboveZero) {
 }
 
 TEST_F(SpectrumFiles, CgatsValueThatIsNoFiniteNumberIsNamedByItsLine) {
-  expect_error(cgats("\t0.25", "\tx"), "line 12: \"x\" is not a number");
-  expect_error(cgats("\t0.25", "\tnan"), "line 12: \"nan\" is not finite");
+  expect_error(cgats("\t0.25", "\tx"), "line 12, column 5: \"x\" is not a number");
+  expect_error(cgats("\t0.25", "\tnan"), "line 12, column 5: \"nan\" is not finite");
   // Of another row.
-  expect_samples(cgats("\t3\t", "\tx\t"), kThree_nm, {0.25, 0.5, 1});
-  expect_error(cgats("\t3\t", "\tx\t"), "line 13: \"x\" is not a number", 1);
+  expect_samples(cgats("\t3\t", "\tx\t"), kThree_nm, {0.25, 0.5, 1}, 0);
+  expect_error(cgats("\t3\t", "\tx\t"), "line 13, column 16: \"x\" is not a number", 1);
 }
 
 TEST_F(SpectrumFiles, AnyTextIsReadOrAnErrorOfOneLine) {

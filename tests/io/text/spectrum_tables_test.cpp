@@ -73,13 +73,15 @@ TEST_F(SpectrumTables, RefusesLinesThatDoNotFit) {
   expect_refused("400,1,2\n500,1\n", "line 2: has fewer values than the first line of samples, which has 2");
   expect_refused("400,1,2\n500,1,2,3\n",
                  "line 2: has more values than the first line of samples, which has 2");
-  expect_refused("400,1,2\n500,1,x\n", "line 2: \"x\" is not a number");
-  expect_refused("400\n500\n", "line 1: \"400\" is not a wavelength in nm and values");
-  expect_refused("400,1,2\n500,1,inf\n", "line 2: \"500,1,inf\" is not finite");
-  expect_refused("400,1,2\nnm,3,4\n", "line 2: \"nm,3,4\" is not a wavelength in nm and values");
-  expect_refused("a,400,1\nb,500\n", "line 2: \"b,500\" is not a name, a wavelength in nm and a value");
-  expect_refused("a,400,1\n500,1,2\n", "line 2: \"500,1,2\" is not a name, a wavelength in nm and a value");
-  expect_refused("a,400,1\na,500,nan\n", "line 2: \"a,500,nan\" is not finite");
+  expect_refused("400,1,2\n500,1,x\n", "line 2, column 7: \"x\" is not a number");
+  expect_refused("400\n500\n", "line 1, column 1: \"400\" is not a wavelength in nm and a value");
+  expect_refused("400,1,2\n500,1,inf\n", "line 2, column 7: \"500,1,inf\" is not finite");
+  expect_refused("400,1,2\nnm,3,4\n", "line 2, column 1: \"nm,3,4\" is not a wavelength in nm and values");
+  expect_refused("a,400,1\nb,500\n",
+                 "line 2, column 1: \"b,500\" is not a name, a wavelength in nm and a value");
+  expect_refused("a,400,1\n500,1,2\n",
+                 "line 2, column 1: \"500,1,2\" is not a name, a wavelength in nm and a value");
+  expect_refused("a,400,1\na,500,nan\n", "line 2, column 3: \"a,500,nan\" is not finite");
   expect_refused("a,400,1\n", "line 1: all samples are at 400 nm; a spectrum needs two wavelengths");
   expect_refused("400,1,2\n-1,1,2\n", "line 2: a wavelength of -1 nm is not above 0");
   expect_refused(

@@ -144,7 +144,7 @@ Result<Upsampler> upsampler_of(const PartHeader& header, const std::string& path
       wavelengths.push_back((*pairs)[i]);
       values.push_back((*pairs)[i + 1]);
     }
-    const auto light = MeasuredSpectrum::from_samples(wavelengths, values);
+    const auto light = MeasuredSpectrum::from_samples(wavelengths, values, Ends::kZero);
     if (!light) return damaged(path, "spectileLightSamples");
     options.light = *light;
   } else if (light_name != "D65") {
