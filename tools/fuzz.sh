@@ -12,7 +12,7 @@ cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz ${JOBS:+-j "$JOBS"}
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
-  targets=(channel_names option_text plan_json spectrum_text exr_read exr_convert film_file)
+  targets=(channel_names channel_map option_text plan_json spectrum_text exr_read exr_convert film_file)
 fi
 export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=1
 export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0

@@ -73,16 +73,57 @@ void add_masks(std::vector<Operation>& to, std::size_t bands) {
 
 /// Sums of `count` rows of weights [bands] times samples, in double.
 Oracle weighted_by(const std::shared_ptr<const std::vector<double>>& weights, std::size_t bands,
-                   std::size_t count, std::size_t first = 0) {
+                   std::size_t count) {
   return [=](const double* v, double* reference, double* scale) {
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < bands; ++i) {
-        const double term = (*weights)[(first + k) * bands + i] * v[i];
+        const double term = (*weights)[k * bands + i] * v[i];
         reference[k] += term;
         scale[k] += std::abs(term);
       }
     }
   };
+}
+
+/// Products, sums within runs of eight, sums of the runs.
+double sums_of(double count) {
+  return count + std::ceil(count / static_cast<double>(kernels::kSumRun));
+}
+
+/// The three weighted sums of a projector, of all its samples.
+void add_projection(std::vector<Operation>& to, const char* name,
+                    const std::shared_ptr<const Projector>& projector) {
+  const std::size_t n = projector->weights().size();
+  const auto count = static_cast<double>(n);
+  auto weights = std::make_shared<std::vector<double>>(3 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) (*weights)[k * n + i] = projector->weights()[i][k];
+  }
+  Operation& xyz = spectrum_operation(to, name, 1, n);
+  xyz.group = "colorimetry";
+  xyz.out = {3, 1};
+  xyz.operations = 3 * (count + sums_of(count));
+  xyz.bound = count / 8 + 11;
+  xyz.bottleneck =
+      "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
+      "memory";
+  xyz.run = [=](const KernelTable& k, const Arrays& a) {
+    k.project(a.out3().data(), a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
+  };
+  xyz.error = error_against(3, count, false, xyz.bound, weighted_by(weights, n, 3));
+}
+
+/// Reflectances that re-radiate from each of 40 bands at every longer wavelength: 820 samples a pixel.
+Result<void> add_reradiation(std::vector<Operation>& to, const MeasuredSpectrum& light) {
+  SPECTILE_ASSIGN(const auto bands, Bands::uniform(380, 780, 10));
+  std::vector<BandPair> pairs;
+  for (std::size_t from = 0; from < bands.count(); ++from) {
+    for (std::size_t to_band = from + 1; to_band < bands.count(); ++to_band) pairs.push_back({from, to_band});
+  }
+  SPECTILE_ASSIGN(auto made, Projector::reradiating(bands, light, pairs));
+  add_projection(to, "project re-radiation to XYZ", std::make_shared<const Projector>(std::move(made)));
+  to.back().item = "pixel of 820 samples";
+  return {};
 }
 
 }  // namespace
@@ -96,34 +137,18 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
   SPECTILE_ASSIGN(auto light, illuminant("D65"));
   SPECTILE_ASSIGN(auto made, Projector::reflective(bands, light));
   const auto projector = std::make_shared<const Projector>(std::move(made));
-  auto weights = std::make_shared<std::vector<double>>(3 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) (*weights)[k * n + i] = projector->weights()[i][k];
-  }
-  // Products, sums within runs of eight, sums of the runs.
-  const double sums = count + std::ceil(count / static_cast<double>(kernels::kSumRun));
+  add_projection(to, "project to XYZ", projector);
 
-  Operation& xyz = spectrum_operation(to, "project to XYZ", 1, n);
-  xyz.group = "colorimetry";
-  xyz.out = {3, 1};
-  xyz.operations = 3 * (count + sums);
-  xyz.bound = count / 8 + 11;
-  xyz.bottleneck =
-      "six operations a vector beside its load: the processor does not see far enough ahead to hide all of "
-      "memory";
-  xyz.run = [=](const KernelTable& k, const Arrays& a) {
-    k.project(a.out3().data(), a.in(), ProjectorAccess::weights(*projector), n, a.blocks);
-  };
-  xyz.error = error_against(3, count, false, xyz.bound, weighted_by(weights, n, 3));
-
+  auto luminances = std::make_shared<std::vector<double>>();
+  for (const auto& w : projector->weights()) luminances->push_back(w[1]);
   Operation& y = spectrum_operation(to, "luminance", 1, n);
   y.group = "colorimetry";
-  y.operations = count + sums;
+  y.operations = count + sums_of(count);
   y.bound = count / 8 + 11;
   y.run = [=](const KernelTable& k, const Arrays& a) {
     k.weighted_sum(a.out(), a.in(), ProjectorAccess::luminance_weights(*projector), n, a.blocks);
   };
-  y.error = error_against(1, count, false, y.bound, weighted_by(weights, n, 1, 1));
+  y.error = error_against(1, count, false, y.bound, weighted_by(luminances, n, 1));
 
   Operation& transform = add_operation(to, "colorimetry", "XYZ to linear sRGB", "colour", {3, 1}, {3, 1});
   transform.operations = 15;
@@ -143,7 +168,7 @@ Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands) {
           scale[i / 3] += std::abs(term);
         }
       });
-  return {};
+  return add_reradiation(to, light);
 }
 
 }  // namespace spectile::measure

@@ -15,6 +15,7 @@
 #include <spectile/image/film_file.hpp>
 #include <spectile/image/image.hpp>
 #include <spectile/image/plan_file.hpp>
+#include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
 #include <spectile/image/spectral_texture.hpp>
 #include <spectile/isa.hpp>

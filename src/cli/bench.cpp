@@ -157,7 +157,7 @@ int check_writable(const std::string& path) {
   if (std::filesystem::is_directory(path)) return cannot_write(path, EISDIR);
   std::FILE* const file = std::fopen(temporary_path(path).c_str(), "wb");
   if (file == nullptr) return cannot_write(path, errno);
-  std::fclose(file);
+  static_cast<void>(std::fclose(file));
   std::remove(temporary_path(path).c_str());
   return kOk;
 }

@@ -134,7 +134,6 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
   std::string list;
   for (const double nm : plan.wavelengths_nm) list += fmt::format(" {:.1f}", nm);
   print(" {} nm\n", list);
-  Notes().print(scene.notes);
   if (plan.report.errors.empty()) {
     print("  no cross-validated error, as there was no cross-validation\n");
     return;
@@ -174,6 +173,7 @@ int run_plan(const PlanArguments& a) {
   o.folds = a.folds;
   add_lights(a, scene);
   add_reflectances(a, scene);
+  print_notes(a.common, scene.notes);
   const auto start = std::chrono::steady_clock::now();
   const auto plan = make_plan(o);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

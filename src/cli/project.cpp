@@ -7,25 +7,70 @@
 namespace spectile::cli {
 namespace {
 
-constexpr Choice<Quantity> kQuantities[] = {{"reflectance", Quantity::kReflectance},
-                                            {"illuminant", Quantity::kIlluminant}};
+/// What is written: a colour, or how light is polarised.
+struct Target {
+  ColorTarget color = ColorTarget::kSrgb;
+  std::optional<Polarisation> polarisation = std::nullopt;
+  friend bool operator==(const Target&, const Target&) = default;
+};
+
+enum class Quantities { kReflectance, kIlluminant, kBoth };
+
+constexpr Choice<Quantities> kQuantities[] = {{"reflectance", Quantities::kReflectance},
+                                              {"illuminant", Quantities::kIlluminant},
+                                              {"both", Quantities::kBoth}};
+constexpr Choice<Target> kProjectTargets[] = {{"srgb", {ColorTarget::kSrgb}},
+                                              {"xyz", {ColorTarget::kXyz}},
+                                              {"luminance", {ColorTarget::kLuminance}},
+                                              {"dop", {ColorTarget::kLuminance, Polarisation::kDegree}},
+                                              {"aolp", {ColorTarget::kLuminance, Polarisation::kAngle}}};
 
 struct ProjectArguments {
   ImageCommand image;
-  ColorTarget to = ColorTarget::kSrgb;
+  Target to;
   std::string illuminant;
   Observer observer = Observer::kCie1931;
-  std::optional<Quantity> quantity;
+  std::optional<Quantities> quantity;
+  std::optional<double> emission_scale;
+  bool photometric = false;
   ChannelArguments channels;
   SpectrumArguments spectra;
   Adaptation adapt = Adaptation::kNone;
 };
 
+/// Throws: Stop.
+void refuse_with_polarisation(const ProjectArguments& a) {
+  const auto refuse = [](const char* option) {
+    throw Stop(complain_usage(
+        fmt::format("{} does not go with --to dop and aolp, which are of emission alone", option)));
+  };
+  if (!a.illuminant.empty()) refuse("--illuminant");
+  if (a.adapt != Adaptation::kNone) refuse("--adapt");
+  if (a.photometric) refuse("--photometric");
+  if (a.quantity && *a.quantity != Quantities::kIlluminant) refuse("--quantity reflectance and both");
+}
+
+int project_polarisation(const ProjectArguments& a) {
+  refuse_with_polarisation(a);
+  PolarisationImageOptions options;
+  options.pixel = SampleType::kFloat;
+  a.image.apply(options);
+  options.polarisation = *a.to.polarisation;
+  options.observer = a.observer;
+  options.channels = channel_choice(a.channels);
+  return run_jobs(a.image, {settings_text(options), {}}, options.progress,
+                  [&](const Job& job) { return polarisation_image(job.input, job.output, options); });
+}
+
 int run_project(const ProjectArguments& a) {
+  if (a.emission_scale && a.quantity != Quantities::kBoth) {
+    return complain_usage("--emission-scale is for --quantity both");
+  }
+  if (a.to.polarisation) return project_polarisation(a);
   ProjectImageOptions options;
   options.pixel = SampleType::kFloat;
   a.image.apply(options);
-  options.target = a.to;
+  options.target = a.to.color;
   options.observer = a.observer;
   std::optional<NamedLight> light;
   if (!a.illuminant.empty()) {
@@ -33,7 +78,10 @@ int run_project(const ProjectArguments& a) {
     options.light = light->spectrum;
   }
   options.adaptation = a.adapt;
-  options.quantity = a.quantity;
+  if (a.quantity == Quantities::kReflectance) options.quantity = Quantity::kReflectance;
+  if (a.quantity == Quantities::kIlluminant) options.quantity = Quantity::kIlluminant;
+  if (a.quantity == Quantities::kBoth) options.emission = a.emission_scale.value_or(1);
+  options.photometric = a.photometric;
   options.channels = channel_choice(a.channels);
   return run_jobs(
       a.image,
@@ -55,10 +103,16 @@ void add_project(const Command& app, int& exit) {
   command.option("--illuminant", a->illuminant, "SPECTRUM", kColorGroup,
                  "Illuminant on reflectances; D65 by default");
   add_observer_option(command, a->observer);
-  add_target_options(command, a->to, a->adapt);
+  command.choice("--to", a->to, kProjectTargets, kColorGroup,
+                 "srgb (linear, white D65), xyz, luminance (channel Y), or, of linearly polarised light, dop "
+                 "(degree) or aolp (angle)");
+  add_adapt_option(command, a->adapt);
   add_spectrum_options(command, a->spectra);
   command.choice("--quantity", a->quantity, kQuantities, kColorGroup,
-                 "reflectance or illuminant, where a file holds both or does not say");
+                 "reflectance or illuminant, where a file holds both or does not say; both: their sum");
+  command.option("--emission-scale", a->emission_scale, "FACTOR", kColorGroup,
+                 "Factor on emission in --quantity both; 1 by default");
+  command.flag("--photometric", a->photometric, kColorGroup, "Emission to Y in cd/m2, not relative");
   add_channel_options(command, a->channels);
   add_channel_map_option(command, a->channels);
   a->image.add_options(

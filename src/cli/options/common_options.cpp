@@ -119,11 +119,15 @@ Option add_observer_option(const Command& command, Observer& observer, const cha
                         "Standard observer: 1931 (2 degree) or 1964 (10 degree)");
 }
 
+void add_adapt_option(const Command& command, Adaptation& adaptation) {
+  command.choice("--adapt", adaptation, kAdaptations, kColorGroup,
+                 "Chromatic adaptation from the illuminant to D65: none, bradford or cat16");
+}
+
 void add_target_options(const Command& command, ColorTarget& target, Adaptation& adaptation) {
   command.choice("--to", target, kTargets, kColorGroup,
                  "srgb (linear, white D65), xyz or luminance (channel Y)");
-  command.choice("--adapt", adaptation, kAdaptations, kColorGroup,
-                 "Chromatic adaptation from the illuminant to D65: none, bradford or cat16");
+  add_adapt_option(command, adaptation);
 }
 
 }  // namespace spectile::cli

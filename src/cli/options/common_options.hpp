@@ -88,6 +88,8 @@ Result<Bands> bands_of(const std::string& text);
 
 /// Adds an option of a standard observer.
 Option add_observer_option(const Command& command, Observer& observer, const char* flag = "--observer");
+/// Adds --adapt.
+void add_adapt_option(const Command& command, Adaptation& adaptation);
 /// Adds --to and --adapt.
 void add_target_options(const Command& command, ColorTarget& target, Adaptation& adaptation);
 

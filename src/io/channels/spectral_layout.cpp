@@ -70,12 +70,16 @@ std::optional<double> take_wavelength(std::string_view& text) {
 
 std::optional<SpectralChannel> parse_layout(std::string_view name, const PartHeader& /*header*/) {
   SpectralChannel channel;
+  const int component =
+      name.size() > 2 && name[0] == 'S' && name[1] >= '1' && name[1] <= '3' ? name[1] - '0' : 0;
   if (take(name, "T.")) {
     channel.kind = SpectralKind::kReflective;
   } else if (take(name, "S0.")) {
     channel.kind = SpectralKind::kEmissive;
-  } else if (take(name, "S1.") || take(name, "S2.") || take(name, "S3.")) {
+  } else if (component > 0 && name[2] == '.') {
+    name.remove_prefix(3);
     channel.kind = SpectralKind::kPolarised;
+    channel.stokes = component;
   } else {
     return std::nullopt;
   }

@@ -14,6 +14,8 @@
 namespace spectile::io {
 namespace {
 
+constexpr double kNameNm = 1e-6;  // names have six decimals
+
 /// A prefix's layer and view: its last component is a view where the file knows one of that name.
 std::pair<std::string, std::string> layer_and_view(const std::string& prefix,
                                                    const std::vector<std::string>& views) {
@@ -43,6 +45,71 @@ std::string list(const std::vector<SpectralSet>& sets, Name name) {
     if (said.insert(text).second) out += (out.empty() ? "" : "; ") + text;
   }
   return out;
+}
+
+std::string described(const SpectralSet& set) {
+  return set.description();
+}
+
+bool is_reflectance(const SpectralSet& set) {
+  return set.quantity == Quantity::kReflectance;
+}
+
+/// That of all sets which fits a choice best. Errors: those of choose_spectra().
+Result<SpectralSet> best_fit(const ExrInput& input, const std::vector<SpectralSet>& all,
+                             const ChannelChoice& choice, std::optional<Quantity> quantity,
+                             std::vector<std::string>& notes) {
+  SPECTILE_ASSIGN(const auto part, chosen_part(input, choice.part));
+  std::vector<SpectralSet> fit;
+  for (SpectralSet set : all) {
+    if (quantity && set.quantity_assumed) set.quantity = *quantity;
+    if (part && set.part != *part) continue;
+    if (!choice.view.empty() && set.view != choice.view) continue;
+    if (!choice.layer.empty() && set.layer != choice.layer && set.view != choice.layer &&
+        !is_part(set, choice.layer)) {
+      continue;
+    }
+    if (quantity && set.quantity != *quantity) continue;
+    fit.push_back(std::move(set));
+  }
+  if (fit.empty()) {
+    return make_error(ErrorCode::kBadFile, "{}: has no {} of {}; it has {}", input.path(),
+                      quantity ? quantity_noun(*quantity) : "spectra", asked_for(choice),
+                      list(all, described));
+  }
+  // Plain channels before layers, then the default view, the first part, reflectance.
+  std::ranges::stable_sort(fit, {}, [](const SpectralSet& s) {
+    return std::tuple(!s.layer.empty(), !s.default_view, s.part, s.quantity != Quantity::kReflectance);
+  });
+  SpectralSet chosen = fit.front();
+  const bool other_layers =
+      std::any_of(fit.begin(), fit.end(), [&](const auto& s) { return s.layer != chosen.layer; });
+  if (!chosen.layer.empty() && choice.layer.empty()) {
+    if (other_layers) {
+      return make_error(ErrorCode::kBadFile,
+                        "{}: has spectra in several layers, of which --layer states one: {}", input.path(),
+                        list(fit, [](const SpectralSet& s) { return s.layer; }));
+    }
+    notes.push_back(fmt::format("layer \"{}\", the only one with spectra, is taken", chosen.layer));
+  }
+  if (chosen.quantity_assumed && !quantity) {
+    notes.push_back(fmt::format("{}'s channels are taken for light; --quantity reflectance states the other",
+                                chosen.dialect->name));
+  }
+  return chosen;
+}
+
+void note_left_out(const std::vector<SpectralSet>& all, std::span<const SpectralSet> chosen,
+                   std::vector<std::string>& notes) {
+  std::vector<SpectralSet> rest;
+  for (const SpectralSet& set : all) {
+    const bool taken = std::ranges::any_of(
+        chosen, [&](const auto& c) { return c.names == set.names && c.part == set.part; });
+    if (!taken) rest.push_back(set);
+  }
+  if (rest.empty()) return;
+  notes.push_back(
+      fmt::format("left out: {} (see --layer, --view, --part, --quantity)", list(rest, described)));
 }
 
 Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choice,
@@ -102,8 +169,7 @@ Result<std::vector<ReradiationChannel>> SpectralSet::reradiation(const Bands& ba
                                                                  const std::string& path) const {
   const auto band_of = [&](double nm) {
     std::size_t i = 0;
-    // Names have six decimals.
-    while (i < bands.count() && std::abs(bands[i].centre_nm - nm) > 1e-6) ++i;
+    while (i < bands.count() && std::abs(bands[i].centre_nm - nm) > kNameNm) ++i;
     return i;
   };
   std::vector<ReradiationChannel> out;
@@ -115,6 +181,25 @@ Result<std::vector<ReradiationChannel>> SpectralSet::reradiation(const Bands& ba
                         path, name, from == bands.count() ? "from" : "at");
     }
     out.push_back({name, from, to});
+  }
+  return out;
+}
+
+Result<std::vector<std::string>> SpectralSet::stokes(int component, const std::string& path) const {
+  std::vector<std::string> out;
+  bool same = true;
+  for (const auto& [name, channel] : polarised) {
+    if (channel.stokes != component) continue;
+    const std::size_t i = out.size();
+    same = same && i < read.size() && std::abs(read[i].wavelength_nm - channel.wavelength_nm) <= kNameNm;
+    out.push_back(name);
+  }
+  if (out.empty()) {
+    return make_error(ErrorCode::kBadFile, "{}: has no channels S{} of polarised light", path, component);
+  }
+  if (!same || out.size() != read.size()) {
+    return make_error(ErrorCode::kBadFile, "{}: channels S{} have other wavelengths than S0", path,
+                      component);
   }
   return out;
 }
@@ -139,11 +224,12 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
     std::map<Key, std::vector<std::pair<std::string, SpectralChannel>>> found;
     for (const StoredChannel& stored : header.channels()) {
       const auto channel = parse_spectral_channel(stored.name, header);
-      if (!channel || channel->kind == SpectralKind::kPolarised) continue;
+      if (!channel) continue;
       auto [layer, view] = layer_and_view(channel->prefix, views);
       if (view.empty()) view = header.text("view").value_or("");
-      const Quantity quantity =
-          channel->kind == SpectralKind::kEmissive ? Quantity::kIlluminant : Quantity::kReflectance;
+      const bool light =
+          channel->kind == SpectralKind::kEmissive || channel->kind == SpectralKind::kPolarised;
+      const Quantity quantity = light ? Quantity::kIlluminant : Quantity::kReflectance;
       found[{layer, view, quantity}].emplace_back(stored.name, *channel);
     }
     for (auto& [key, channels] : found) {
@@ -156,6 +242,10 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
       for (auto& [name, channel] : channels) {
         if (channel.kind == SpectralKind::kReradiating) {
           set.reradiating.emplace_back(name, channel);
+          continue;
+        }
+        if (channel.kind == SpectralKind::kPolarised) {
+          set.polarised.emplace_back(name, channel);
           continue;
         }
         set.dialect = channel.dialect;
@@ -178,53 +268,28 @@ Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const C
   }
   const std::vector<SpectralSet> all = spectral_sets(input);
   if (all.empty()) return std::optional<SpectralSet>();
-  SPECTILE_ASSIGN(const auto part, chosen_part(input, choice.part));
-  std::vector<SpectralSet> fit;
-  for (SpectralSet set : all) {
-    if (quantity && set.quantity_assumed) set.quantity = *quantity;
-    if (part && set.part != *part) continue;
-    if (!choice.view.empty() && set.view != choice.view) continue;
-    if (!choice.layer.empty() && set.layer != choice.layer && set.view != choice.layer &&
-        !is_part(set, choice.layer)) {
-      continue;
-    }
-    if (quantity && set.quantity != *quantity) continue;
-    fit.push_back(std::move(set));
-  }
-  const auto described = [](const SpectralSet& set) { return set.description(); };
-  if (fit.empty()) {
-    return make_error(ErrorCode::kBadFile, "{}: has no {} of {}; it has {}", input.path(),
-                      quantity ? quantity_noun(*quantity) : "spectra", asked_for(choice),
-                      list(all, described));
-  }
-  // Plain channels before layers, then the default view, the first part, reflectance.
-  std::ranges::stable_sort(fit, {}, [](const SpectralSet& s) {
-    return std::tuple(!s.layer.empty(), !s.default_view, s.part, s.quantity != Quantity::kReflectance);
-  });
-  SpectralSet chosen = fit.front();
-  const bool other_layers =
-      std::any_of(fit.begin(), fit.end(), [&](const auto& s) { return s.layer != chosen.layer; });
-  if (!chosen.layer.empty() && choice.layer.empty()) {
-    if (other_layers) {
-      return make_error(ErrorCode::kBadFile,
-                        "{}: has spectra in several layers, of which --layer states one: {}", input.path(),
-                        list(fit, [](const SpectralSet& s) { return s.layer; }));
-    }
-    notes.push_back(fmt::format("layer \"{}\", the only one with spectra, is taken", chosen.layer));
-  }
-  if (chosen.quantity_assumed && !quantity) {
-    notes.push_back(fmt::format("{}'s channels are taken for light; --quantity reflectance states the other",
-                                chosen.dialect->name));
-  }
-  std::vector<SpectralSet> rest;
-  for (const SpectralSet& set : all) {
-    if (set.names != chosen.names || set.part != chosen.part) rest.push_back(set);
-  }
-  if (!rest.empty()) {
-    notes.push_back(
-        fmt::format("left out: {} (see --layer, --view, --part, --quantity)", list(rest, described)));
-  }
+  SPECTILE_ASSIGN(auto chosen, best_fit(input, all, choice, quantity, notes));
+  note_left_out(all, {&chosen, 1}, notes);
   return std::optional(std::move(chosen));
+}
+
+Result<std::array<SpectralSet, 2>> choose_both(const ExrInput& input, const ChannelChoice& choice,
+                                               std::vector<std::string>& notes) {
+  const std::vector<SpectralSet> all = spectral_sets(input);
+  const auto lacks = [&](const char* what) {
+    return make_error(ErrorCode::kBadFile, "{}: has no {}, which both quantities need; it has {}",
+                      input.path(), what, all.empty() ? "no spectra" : list(all, described));
+  };
+  if (!choice.map.empty() || std::ranges::none_of(all, is_reflectance)) return lacks("reflectance");
+  SPECTILE_ASSIGN(auto reflectance, best_fit(input, all, choice, Quantity::kReflectance, notes));
+  const auto emission = std::ranges::find_if(all, [&](const SpectralSet& set) {
+    return !is_reflectance(set) && set.part == reflectance.part && set.layer == reflectance.layer &&
+           set.view == reflectance.view && set.names != reflectance.names;
+  });
+  if (emission == all.end()) return lacks("emission beside its reflectance");
+  std::array<SpectralSet, 2> chosen = {std::move(reflectance), *emission};
+  note_left_out(all, chosen, notes);
+  return chosen;
 }
 
 std::string asked_for(const ChannelChoice& choice) {

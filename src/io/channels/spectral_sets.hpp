@@ -1,6 +1,7 @@
 // SpectralSet: spectral channels that belong together, and the choice among those that a file holds.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -34,11 +35,15 @@ struct SpectralSet {
   std::vector<SpectralChannel> read;  ///< of the names
   std::vector<MappedChannel> mapped;  ///< instead, for a channel map
   std::vector<std::pair<std::string, SpectralChannel>> reradiating;
+  std::vector<std::pair<std::string, SpectralChannel>> polarised;  // of emission
 
   /// Centres, or edges where the names have them. Errors: kBadFile.
   Result<Bands> bands(const PartHeader& header, const std::string& path) const;
   /// Errors: kBadFile for wavelengths that no band has.
   Result<std::vector<ReradiationChannel>> reradiation(const Bands& bands, const std::string& path) const;
+  /// The channels of a Stokes component, 1 to 3, in the order of `names`. Errors: kBadFile where there are
+  /// none, or of other wavelengths than S0.
+  Result<std::vector<std::string>> stokes(int component, const std::string& path) const;
   /// "31 bands of emission, layer \"diffuse\", view \"right\"".
   std::string description() const;
 };
@@ -52,6 +57,11 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input);
 Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const ChannelChoice& choice,
                                                   std::optional<Quantity> quantity,
                                                   std::vector<std::string>& notes);
+
+/// Reflectance, and the emission of the same part, layer and view. Errors: kBadFile where a file lacks one of
+/// them; those of choose_spectra().
+Result<std::array<SpectralSet, 2>> choose_both(const ExrInput& input, const ChannelChoice& choice,
+                                               std::vector<std::string>& notes);
 
 /// The planes of a set's channels, in their order, those of re-radiation after the others.
 /// Errors: kBadFile for one that is subsampled.

@@ -1,18 +1,14 @@
 // load_channel_map: channels and their wavelengths, from a small table.
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <spectile/image/channel_map.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/io/text/text_file.hpp"
 
 namespace spectile {
 namespace {
-
-// More is no table of an image's channels: OpenEXR writes 32767 at most.
-constexpr std::size_t kMaxMapBytes = std::size_t{4} << 20;
 
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -21,59 +17,64 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// The fields of a line: apart by semicolons or tabs where there are any, else by commas.
 std::vector<std::string_view> fields_of(std::string_view line) {
+  const char* const separators = line.find_first_of(";\t") == std::string_view::npos ? "," : ";\t";
   std::vector<std::string_view> out;
   for (;;) {
-    const std::size_t comma = line.find(',');
-    out.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return out;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find_first_of(separators);
+    out.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return out;
+    line.remove_prefix(end + 1);
   }
 }
 
+/// A wavelength or an edge; nothing for other texts.
 std::optional<double> wavelength(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && value > 0 && value < 1e9 ? std::optional(value) : std::nullopt;
+  constexpr double kMaxNm = 1e9;
+  const auto value = io::number_in(text);
+  return value && *value > 0 && *value < kMaxNm ? value : std::nullopt;
+}
+
+/// A line of a map. Errors: kBadFile.
+Result<MappedChannel> channel_of(const io::TextFile& file, std::size_t line,
+                                 const std::vector<std::string_view>& fields) {
+  if (fields.size() < 2 || fields.size() > 3 || fields[0].empty()) {
+    return io::line_error(file, line, "is neither NAME,WAVELENGTH nor NAME,LOWER,UPPER (nm)");
+  }
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    if (wavelength(fields[i])) continue;
+    return io::place_error(file, line, fields[i].data(),
+                           fmt::format("{} is not a wavelength in nm", io::quoted(fields[i])));
+  }
+  const double lower = *wavelength(fields[1]);
+  const double upper = *wavelength(fields.back());
+  if (fields.size() == 3 && !(lower < upper)) {
+    return io::place_error(file, line, fields[2].data(), "the upper edge is not above the lower one");
+  }
+  return MappedChannel{std::string(fields[0]), {lower, (lower + upper) / 2, upper}};
 }
 
 }  // namespace
 
 Result<std::vector<MappedChannel>> load_channel_map(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return make_error(ErrorCode::kBadFile, "{}: cannot read", path);
+  SPECTILE_ASSIGN(const auto file, io::read_text_file(path));
   std::vector<MappedChannel> out;
   std::set<std::string, std::less<>> names;
-  std::string line;
-  std::size_t number = 0;
-  std::size_t bytes = 0;
   std::size_t edges = 0;
-  while (std::getline(file, line)) {
-    ++number;
-    bytes += line.size() + 1;
-    if (bytes > kMaxMapBytes)
-      return make_error(ErrorCode::kBadFile, "{}: is too large for a channel map", path);
-    const std::string_view text = trimmed(line);
+  for (std::size_t i = 0; i < file.lines.size(); ++i) {
+    const std::string_view text = trimmed(file.lines[i]);
     if (text.empty() || text.starts_with('#')) continue;
     const auto fields = fields_of(text);
-    std::vector<double> values;
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-      if (const auto value = wavelength(fields[i])) values.push_back(*value);
+    const bool numbers = std::any_of(fields.begin() + 1, fields.end(),
+                                     [](std::string_view field) { return wavelength(field).has_value(); });
+    if (out.empty() && fields.size() > 1 && !numbers) continue;  // headings
+    SPECTILE_ASSIGN(auto channel, channel_of(file, i + 1, fields));
+    if (!names.insert(channel.name).second) {
+      return io::line_error(file, i + 1, fmt::format("channel {} again", io::quoted(channel.name)));
     }
-    if (out.empty() && values.empty() && fields.size() > 1) continue;  // headings
-    const bool right = values.size() + 1 == fields.size() && (values.size() == 1 || values.size() == 2) &&
-                       (values.size() == 1 || values[0] < values[1]);
-    if (!right || fields[0].empty()) {
-      return make_error(ErrorCode::kBadFile, "{}:{}: is neither NAME,WAVELENGTH nor NAME,LOWER,UPPER (nm)",
-                        path, number);
-    }
-    if (!names.insert(std::string(fields[0])).second) {
-      return make_error(ErrorCode::kBadFile, "{}:{}: channel \"{}\" again", path, number, fields[0]);
-    }
-    edges += values.size() - 1;
-    const double centre = (values.front() + values.back()) / 2;
-    out.push_back({std::string(fields[0]), {values.front(), centre, values.back()}});
+    edges += fields.size() - 2;
+    out.push_back(std::move(channel));
   }
   if (out.empty()) return make_error(ErrorCode::kBadFile, "{}: names no channel", path);
   if (edges != 0 && edges != out.size()) {

@@ -28,7 +28,11 @@ TEST_F(ChannelChoices, MapsSayWhatNamesDoNot) {
       folder_ / "edges.csv",
       "channel,lower,upper\n# of the camera\nband1_red,600,700\n\nband2_green,500,600\nband3_blue,400,500\n");
   write_text(folder_ / "centres.csv", "band3_blue, 450\nband2_green, 550\r\nband1_red, 650\n");
-  for (const char* map : {"edges.csv", "centres.csv"}) {
+  write_text(folder_ / "bom.csv",
+             "\xEF\xBB\xBF"
+             "band3_blue;450\rband2_green;550\rband1_red;650\r");
+  write_text(folder_ / "tabs.tsv", "band1_red\t600\t700\nband2_green\t500\t600\nband3_blue\t400\t500");
+  for (const char* map : {"edges.csv", "centres.csv", "bom.csv", "tabs.tsv"}) {
     ProjectImageOptions options = xyz();
     options.channels.map = *load_channel_map(folder_ / map);
     const ImageReport report = project(in_, options);
@@ -41,16 +45,18 @@ TEST_F(ChannelChoices, MapsSayWhatNamesDoNot) {
 }
 
 TEST_F(ChannelChoices, FaultsOfMapsHaveTheirLines) {
-  const std::pair<const char*, const char*> maps[] = {{"a,500\na,510\n", "2: channel \"a\" again"},
-                                                      {"a,500\nb\n", "2: is neither"},
-                                                      {"a,600,500\n", "1: is neither"},
-                                                      {"a,500\nb,510,520\n", "wavelengths and edges"},
-                                                      {"", "names no channel"},
-                                                      {"a,500,510\nb,505,515\n", "overlap"},
-                                                      {"a,500\nb,-3\n", "2: is neither"},
-                                                      {"a,500,510,520\n", "1: is neither"},
-                                                      {"a,500\n,510\n", "2: is neither"},
-                                                      {"a,500\nb,nan\n", "2: is neither"}};
+  const std::pair<const char*, const char*> maps[] = {
+      {"a,500\na,510\n", "line 2: channel \"a\" again"},
+      {"a,500\nb\n", "line 2: is neither"},
+      {"a,600,500\n", "line 1, column 7: the upper edge"},
+      {"a,500\nb,510,520\n", "wavelengths and edges"},
+      {"", "names no channel"},
+      {"a,500,510\nb,505,515\n", "overlap"},
+      {"a,500\nb,-3\n", "line 2, column 3: \"-3\" is not a wavelength"},
+      {"a,500,510,520\n", "line 1: is neither"},
+      {"a,500\n,510\n", "line 2: is neither"},
+      {"a,500\nb,nan\n", "line 2, column 3: \"nan\""},
+      {"\x01,500\n", "this is no text"}};
   for (const auto& [text, want] : maps) {
     write_text(folder_ / "map.csv", text);
     const auto map = load_channel_map(folder_ / "map.csv");

@@ -1,6 +1,7 @@
 // Settings as one line of text, and whether an image that holds one needs to be made anew.
 #include <sys/stat.h>
 
+#include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
 #include <spectile/spectra/band_weights.hpp>
 
@@ -190,6 +191,17 @@ std::string settings_text(const ProjectImageOptions& options) {
   line.add("illuminant", options.light ? to_text(*options.light) : "D65");
   line.add("quantity", options.quantity ? to_string(*options.quantity) : "of the file");
   line.add("adapt", enum_name(kAdaptations, options.adaptation));
+  // As texts of earlier files have it, where neither is asked for.
+  if (options.emission) line.add("emission", fmt::format("{}", *options.emission));
+  if (options.photometric) line.add("unit", "cd/m2");
+  return std::move(line).text();
+}
+
+std::string settings_text(const PolarisationImageOptions& options) {
+  Line line("project");
+  line.add(options);
+  line.add("to", options.polarisation == Polarisation::kDegree ? "dop" : "aolp");
+  line.add("observer", to_string(options.observer));
   return std::move(line).text();
 }
 

@@ -8,11 +8,11 @@
 
 namespace spectile::io {
 
-ColorJob::ColorJob(ImageSource& source, std::size_t first_passing, ColorTarget target,
+ColorJob::ColorJob(ImageSource& source, std::size_t first_passing, const std::vector<const char*>& names,
                    const ImageOptions& options, const kernels::KernelTable& kernels)
     : source_(source), options_(options), kernels_(kernels) {
   const SampleType type = options.pixel;
-  for (const char* const name : color_channels(target)) channels_.push_back({name, type});
+  for (const char* const name : names) channels_.push_back({name, type});
   colors_ = channels_.size();
   const std::vector<PlaneSpec>& planes = source.planes();
   for (std::size_t i = first_passing; i < planes.size(); ++i) {

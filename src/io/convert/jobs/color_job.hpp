@@ -17,8 +17,9 @@ class ColorJob : public FilteredJob {
  public:
   /// Of the source's planes, those from `first_passing` on pass through, but for names that the colour has.
   /// All references must outlive it.
-  ColorJob(ImageSource& source, std::size_t first_passing, ColorTarget target, const ImageOptions& options,
-           const kernels::KernelTable& kernels);
+  /// `names`: the colour's channels, one or three.
+  ColorJob(ImageSource& source, std::size_t first_passing, const std::vector<const char*>& names,
+           const ImageOptions& options, const kernels::KernelTable& kernels);
 
   /// Output channels: the colour, then those that pass through.
   const std::vector<ChannelSpec>& channels() const noexcept { return channels_; }

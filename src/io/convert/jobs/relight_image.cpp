@@ -24,7 +24,7 @@ class RelightJob : public io::ColorJob {
   /// The source's own colour, its first three planes, does not pass through.
   RelightJob(io::RgbSource& source, const Relighter& relighter, const RelightImageOptions& options,
              const kernels::KernelTable& kernels)
-      : ColorJob(source, 3, options.target, options, kernels),
+      : ColorJob(source, 3, io::color_channels(options.target), options, kernels),
         relighter_(relighter),
         options_(options),
         stage_(source, relighter.upsampler(), options, kernels),

@@ -25,6 +25,17 @@ bool close(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::abs(a[0] - b[0]) < 1e-4 && std::abs(a[1] - b[1]) < 1e-4;
 }
 
+bool same(const Chromaticities& a, const Chromaticities& b) {
+  return close(a.red, b.red) && close(a.green, b.green) && close(a.blue, b.blue) && close(a.white, b.white);
+}
+
+/// True where the primaries are X, Y and Z themselves: white E only says that equal amounts are, and calls
+/// for no adaptation.
+bool is_xyz(const RgbSpace& space) {
+  constexpr double kThird = 1.0 / 3.0;
+  return same(space.chromaticities, {{1, 0}, {0, 1}, {0, 0}, {kThird, kThird}});
+}
+
 std::array<double, 2> pair(const std::array<float, 2>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1])};
 }
@@ -63,6 +74,7 @@ Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& pat
         red[0], red[1], green[0], green[1], blue[0], blue[1], white[0], white[1]);
   }
   const RgbSpace out{"", "chromaticities of the file", space, false};
+  if (is_xyz(out)) return rgb_space("xyz");
   if (is_srgb(out)) return RgbSpace{"lin_rec709", "linear Rec.709 (chromaticities)", kRec709, false};
   return out;
 }
@@ -80,9 +92,7 @@ Result<RgbSpace> input_space_of(const PartHeader& header, const std::string& pat
 }
 
 bool is_srgb(const RgbSpace& space) {
-  const Chromaticities& c = space.chromaticities;
-  return close(c.red, kRec709.red) && close(c.green, kRec709.green) && close(c.blue, kRec709.blue) &&
-         close(c.white, kRec709.white);
+  return same(space.chromaticities, kRec709);
 }
 
 Matrix3 to_srgb(const RgbSpace& space, Quantity quantity) {

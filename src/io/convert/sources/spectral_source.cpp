@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "src/base/errors.hpp"
 #include "src/io/channels/plan_attribute.hpp"
@@ -11,50 +12,91 @@
 
 namespace spectile::io {
 
+namespace {
+
+/// The error of a file without spectra.
+Error no_spectra(const ExrInput& input) {
+  for (int part = 0; part < input.parts(); ++part) {
+    if (input.header(part).deep() || !claims_coefficients(input.header(part))) continue;
+    return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
+                      input.path());
+  }
+  return make_error(ErrorCode::kBadFile,
+                    "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel map "
+                    "says which wavelengths other names stand for",
+                    input.path());
+}
+
+}  // namespace
+
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              const ChannelChoice& choice,
                                                              std::optional<Quantity> wanted, int threads,
-                                                             const std::optional<PixelWindow>& region) {
+                                                             const std::optional<PixelWindow>& region,
+                                                             SpectralContent content) {
   std::unique_ptr<SpectralSource> source(new SpectralSource);
   SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
-  const ExrInput& input = *source->input_;
-  SPECTILE_ASSIGN(auto set, choose_spectra(input, choice, wanted, source->notes_));
-  if (!set) {
-    for (int part = 0; part < input.parts(); ++part) {
-      if (input.header(part).deep() || !claims_coefficients(input.header(part))) continue;
-      return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
-                        path);
-    }
-    return make_error(ErrorCode::kBadFile,
-                      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
-                      "map (--channels) "
-                      "says which wavelengths other names stand for",
-                      path);
+  SPECTILE_TRY(source->choose(choice, wanted, content));
+  SPECTILE_TRY(source->add_passing());
+  SPECTILE_TRY(source->choose_region(region));
+  return source;
+}
+
+Result<void> SpectralSource::choose(const ChannelChoice& choice, std::optional<Quantity> wanted,
+                                    SpectralContent content) {
+  const std::string& path = input_->path();
+  std::optional<SpectralSet> emission;
+  if (content == SpectralContent::kBothQuantities) {
+    SPECTILE_ASSIGN(auto both, choose_both(*input_, choice, notes_));
+    set_ = std::move(both[0]);
+    emission = std::move(both[1]);
+  } else {
+    SPECTILE_ASSIGN(auto set, choose_spectra(*input_, choice, wanted, notes_));
+    if (!set) return no_spectra(*input_);
+    set_ = *std::move(set);
   }
-  source->part_ = set->part;
-  source->set_ = *std::move(set);
-  SPECTILE_ASSIGN(source->bands_, source->set_.bands(source->header(), path));
-  SPECTILE_ASSIGN(source->reradiation_, source->set_.reradiation(source->bands_, path));
-  SPECTILE_ASSIGN(source->planes_, band_planes(source->header(), source->set_, path));
-  const std::vector<PlaneSpec> taken = source->planes_;
+  part_ = set_.part;
+  SPECTILE_ASSIGN(bands_, set_.bands(header(), path));
+  SPECTILE_ASSIGN(reradiation_, set_.reradiation(bands_, path));
+  SPECTILE_ASSIGN(planes_, band_planes(header(), set_, path));
+  const auto add = [&](const std::vector<PlaneSpec>& more) {
+    planes_.insert(planes_.end(), more.begin(), more.end());
+  };
+  if (emission) {
+    SPECTILE_ASSIGN(emission_bands_, emission->bands(header(), path));
+    SPECTILE_ASSIGN(const auto planes, band_planes(header(), *emission, path));
+    add(planes);
+  }
+  for (const int component : {1, 2}) {
+    if (content != SpectralContent::kLinearPolarisation) break;
+    SpectralSet stokes;
+    SPECTILE_ASSIGN(stokes.names, set_.stokes(component, path));
+    SPECTILE_ASSIGN(const auto planes, band_planes(header(), stokes, path));
+    add(planes);
+  }
+  samples_ = planes_.size();
+  return {};
+}
+
+Result<void> SpectralSource::add_passing() {
   std::size_t polarised = 0;
-  for (const StoredChannel& channel : source->header().channels()) {
+  for (const StoredChannel& channel : header().channels()) {
     const std::string& name = channel.name;
     // The preview gives way to the colours made here; the rest of the spectrum is not a colour's business.
     if (name == "R" || name == "G" || name == "B") continue;
-    if (std::any_of(taken.begin(), taken.end(), [&](const auto& p) { return p.name == name; })) continue;
-    if (const auto spectral = parse_spectral_channel(name, source->header())) {
+    const auto spectra = std::span(planes_).first(samples_);
+    if (std::ranges::any_of(spectra, [&](const auto& p) { return p.name == name; })) continue;
+    if (const auto spectral = parse_spectral_channel(name, header())) {
       polarised += spectral->kind == SpectralKind::kPolarised ? 1 : 0;
       continue;
     }
-    if (passes(channel, source->notes_)) source->planes_.push_back({name, channel.type});
+    if (passes(channel, notes_)) planes_.push_back({name, channel.type});
   }
   if (polarised > 0) {
-    source->notes_.push_back(fmt::format("left out: {} channel{} of polarised light (S1, S2, S3)", polarised,
-                                         polarised == 1 ? "" : "s"));
+    notes_.push_back(fmt::format("left out: {} channel{} of polarised light (S1, S2, S3)", polarised,
+                                 polarised == 1 ? "" : "s"));
   }
-  SPECTILE_TRY(source->choose_region(region));
-  return source;
+  return {};
 }
 
 void SpectralSource::block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,

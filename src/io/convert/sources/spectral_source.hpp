@@ -9,26 +9,35 @@
 #include <vector>
 
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/sources/image_source.hpp"
 #include "src/io/channels/spectral_sets.hpp"
+#include "src/io/convert/sources/image_source.hpp"
 
 namespace spectile::io {
 
-/// Planes 0 to bands - 1 of its strips are the bands, those up to samples() - 1 re-radiation, if there is
-/// any; the others pass through.
+/// What of a file's spectra is read.
+enum class SpectralContent {
+  kOneQuantity,         ///< the bands, then re-radiation
+  kBothQuantities,      ///< the same of reflectance, then the bands of emission
+  kLinearPolarisation,  ///< the bands of emission, S0, then those of S1 and of S2
+};
+
+/// Planes 0 to samples() - 1 of its strips are what the content says; the others pass through.
 class SpectralSource : public ImageSource {
  public:
   /// Errors: kBadFile, kNoPermission; those of choose_spectra() and RegionReader.
   static Result<std::unique_ptr<SpectralSource>> open(const std::string& path, const ChannelChoice& choice,
                                                       std::optional<Quantity> wanted, int threads,
-                                                      const std::optional<PixelWindow>& region = {});
+                                                      const std::optional<PixelWindow>& region = {},
+                                                      SpectralContent content = {});
 
   Quantity quantity() const noexcept { return set_.quantity; }
   const Bands& bands() const noexcept { return bands_; }
+  /// Of the emission, where both quantities are read.
+  const Bands& emission_bands() const noexcept { return emission_bands_; }
 
   const std::vector<ReradiationChannel>& reradiation() const noexcept { return reradiation_; }
-  /// Bands and channels of re-radiation.
-  std::size_t samples() const noexcept { return bands_.count() + reradiation_.size(); }
+  /// Planes of spectra.
+  std::size_t samples() const noexcept { return samples_; }
 
   /// The samples of kLanesPerBlock pixels from x on, as a block [sample][64]; x a multiple of kLanesPerBlock,
   /// pixels after the line's end zero.
@@ -37,8 +46,13 @@ class SpectralSource : public ImageSource {
 
  private:
   SpectralSource() = default;
+  /// Errors: those of open().
+  Result<void> choose(const ChannelChoice& choice, std::optional<Quantity> wanted, SpectralContent content);
+  Result<void> add_passing();
   SpectralSet set_;
   Bands bands_;
+  Bands emission_bands_;
+  std::size_t samples_ = 0;
   std::vector<ReradiationChannel> reradiation_;
 };
 
