@@ -24,6 +24,9 @@
 namespace spectile::io {
 namespace {
 
+// Of chunks that several threads may decode side by side.
+constexpr std::size_t kMostChunkBytes = std::size_t{128} << 20;
+
 /// One line of what a library says: no line breaks, no final full stop, no file name before it.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -85,6 +88,13 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
     input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), workers);
     for (int part = 0; part < input->file_->parts(); ++part) {
       input->headers_.emplace_back(input->file_->header(part));
+    }
+    // OpenEXR holds two chunks for each thread, and one without any.
+    const auto too_large = [](const PartHeader& header) {
+      return !header.deep() && header.chunk_bytes() > kMostChunkBytes;
+    };
+    if (workers > 0 && std::ranges::any_of(input->headers_, too_large)) {
+      input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), 0);
     }
   }));
   if (std::all_of(input->headers_.begin(), input->headers_.end(), [](const auto& h) { return h.deep(); }))

@@ -106,6 +106,13 @@ int PartHeader::chunk_lines() const {
   return compression_ ? lines_per_chunk(*compression_) : 1;
 }
 
+std::size_t PartHeader::chunk_bytes() const {
+  const auto width = static_cast<std::size_t>(tiles_ ? tiles_->width : this->width());
+  std::size_t pixel = 0;
+  for (const StoredChannel& channel : channels_) pixel += channel.type == SampleType::kHalf ? 2 : 4;
+  return pixel * width * static_cast<std::size_t>(chunk_lines());
+}
+
 const StoredChannel* PartHeader::find(std::string_view name) const {
   const auto at = std::lower_bound(
       channels_.begin(), channels_.end(), name,

@@ -108,6 +108,8 @@ class PartHeader {
   std::optional<CompressionKind> compression() const noexcept { return compression_; }
   /// Lines that are decoded at once, at most 4096.
   int chunk_lines() const;
+  /// Bytes that are decoded at once: all channels of these lines, or of a tile.
+  std::size_t chunk_bytes() const;
 
   /// In the order of their names.
   const std::vector<StoredChannel>& channels() const noexcept { return channels_; }

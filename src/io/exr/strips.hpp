@@ -52,7 +52,8 @@ Result<std::shared_ptr<Strip>> make_strip(const std::vector<PlaneSpec>& planes, 
 /// Errors: kOutOfMemory.
 Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, int first_line, int lines);
 
-/// Lines worth reading at once: several of the input's chunks, some 16 MiB, never more than `height`.
+/// Lines worth reading at once: several of the input's chunks, some 16 MiB, never more than `height`; as many
+/// as `at_least`, unless these take more than 128 MiB.
 int strip_lines(const PartHeader& header, const std::vector<PlaneSpec>& planes, int at_least);
 
 /// Adds a strip's planes to what a read fills: `width` pixels a line, the first at x, y. For this room only.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <future>
 
 #include "src/base/errors.hpp"
@@ -50,6 +51,7 @@ struct Slot {
   bool reused = false;
   bool encoded = false;
   LineStats stats;
+  std::vector<std::byte> packed;  // lines that are made already: see Run::pack_ahead()
 };
 
 class Run {
@@ -59,13 +61,16 @@ class Run {
       : job_(job),
         writer_(writer),
         slots_(slots),
-        // Whole chunks, so that none needs two strips.
-        strip_lines_((strip_lines + writer.lines_per_chunk() - 1) / writer.lines_per_chunk() *
-                     writer.lines_per_chunk()),
+        thin_(strip_lines < std::min(writer.lines_per_chunk(), writer.height()) &&
+              writer.window(0).width() == writer.width()),
+        // Whole chunks, so that none needs two strips, but where these would be too large.
+        strip_lines_(thin_ ? strip_lines
+                           : (strip_lines + writer.lines_per_chunk() - 1) / writer.lines_per_chunk() *
+                                 writer.lines_per_chunk()),
         options_(options),
         stop_at_(stop_at),
         cache_(kCacheBytes),
-        counts_(options.skip && job.repeats()),
+        counts_(options.skip && job.repeats() && !thin_),
         // A chunk that is not compressed costs little more than the search for it.
         caches_(counts_ && writer.compresses()) {}
 
@@ -82,19 +87,38 @@ class Run {
   bool produce(Slot& slot) {
     if (failed_ || next_chunk_ >= writer_.chunks()) return false;
     const PixelWindow window = writer_.window(next_chunk_);
-    if (!strip_ || !strip_->holds(window.y0, window.height())) {
-      strip_.reset();
-      auto strip = next_strip(window.y0);
-      if (!strip) return fail(strip.error());
-      strip_ = *std::move(strip);
-    }
-    slot.strip = strip_;
-    slot.chunk = next_chunk_++;
     slot.stats = {};
     slot.known.reset();
     slot.reused = false;
+    if (thin_ ? !pack_ahead(slot, window) : !load(window.y0, window.height())) return false;
+    if (!thin_) slot.strip = strip_;
+    slot.chunk = next_chunk_++;
     // Here, where chunks come in order, so that which are reused depends on no thread.
     if (caches_) find_known(slot, window);
+    return true;
+  }
+
+  /// Makes sure that the present strip holds these lines, which are in one.
+  bool load(int first, int lines) {
+    if (strip_ && strip_->holds(first, lines)) return true;
+    strip_.reset();
+    auto strip = next_strip(first);
+    if (!strip) return fail(strip.error());
+    strip_ = *std::move(strip);
+    return true;
+  }
+
+  /// Makes a chunk's lines from strips of a few lines each, here where these come in order: lines so long
+  /// take as long to decode as to convert, and many of them would not fit in memory.
+  bool pack_ahead(Slot& slot, const PixelWindow& window) {
+    const std::size_t line_bytes = writer_.line_bytes(window.width());
+    slot.packed.resize(line_bytes * static_cast<std::size_t>(window.height()));
+    std::byte* packed = slot.packed.data();
+    for (int y = window.y0; y < window.y1; ++y, packed += line_bytes) {
+      if (!load(y, 1)) return false;
+      const auto index = static_cast<std::size_t>(&slot - slots_.data());
+      job_.line(index, *strip_, y, stopped_ ? nullptr : packed, slot.stats);
+    }
     return true;
   }
 
@@ -124,7 +148,7 @@ class Run {
     const auto start = std::chrono::steady_clock::now();
     if (counts_) slot.stats.costs.chunks = 1;
     const PixelWindow window = writer_.window(slot.chunk);
-    if (window.width() < slot.strip->width) {
+    if (!thin_ && window.width() < slot.strip->width) {
       // A tile is to its job an image of its own.
       auto tile = cut_strip(*slot.strip, window.x0, window.width(), window.y0, window.height());
       if (!tile) {
@@ -132,6 +156,10 @@ class Run {
         return;
       }
       slot.strip = *std::move(tile);
+    }
+    if (thin_) {
+      encode_ahead(index);
+      return;
     }
     if (stopped_) {
       for (int i = 0; i < window.height(); ++i) {
@@ -152,6 +180,22 @@ class Run {
     if (slot.known && !failed_) {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
       cache_.complete(*slot.known, writer_.encoded(index), slot.stats, took.count());
+    }
+    if (stop_at_(slot.stats)) stopped_ = true;
+  }
+
+  /// Encodes what pack_ahead() made.
+  void encode_ahead(std::size_t index) {
+    Slot& slot = slots_[index];
+    if (!stopped_) {
+      const int first = writer_.window(slot.chunk).y0;
+      const ExrWriter::Pack pack = [&](const PixelWindow& to, std::byte* packed) {
+        const std::size_t line_bytes = writer_.line_bytes(to.width());
+        std::memcpy(packed, slot.packed.data() + line_bytes * static_cast<std::size_t>(to.y0 - first),
+                    line_bytes * static_cast<std::size_t>(to.height()));
+      };
+      if (auto encoded = writer_.encode(index, slot.chunk, pack); !encoded) fail(encoded.error());
+      slot.encoded = true;
     }
     if (stop_at_(slot.stats)) stopped_ = true;
   }
@@ -201,6 +245,7 @@ class Run {
   LineJob& job_;
   ExrWriter& writer_;
   std::vector<Slot> slots_;
+  bool thin_;
   int strip_lines_;
   const ImageOptions& options_;
   const std::function<bool(const LineStats&)>& stop_at_;

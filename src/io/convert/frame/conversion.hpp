@@ -26,7 +26,8 @@ class LineJob {
   /// Makes work spaces for so many slots, those of filter_rows() among them. The writer must outlive the job.
   /// Errors: kOutOfMemory.
   virtual Result<void> prepare(const ExrWriter& writer, std::size_t slots) = 0;
-  /// Lines worth reading at once, given those of the output's chunks.
+  /// Lines worth reading at once, given those of the output's chunks; fewer than those where they are too
+  /// large.
   virtual int strip_lines(int chunk_lines) const = 0;
   /// Reads lines into a strip; in order, one call at a time.
   virtual Result<std::shared_ptr<Strip>> read(int first_line, int lines) = 0;
