@@ -51,6 +51,11 @@ std::string temporary_name(const std::string& target) {
       .string();
 }
 
+/// The name that the system has for an open file.
+std::string own_descriptor(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
 /// The end of a chain of symbolic links that leads to no file yet, so that the links stay.
 std::string end_of_links(const std::string& path) {
   std::filesystem::path at = path;
@@ -92,6 +97,10 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   file.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
   if (file.fd_ < 0 && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL) {
     return system_error(path, "write", errno);
+  }
+  // Without /proc a nameless file gets no name any more.
+  if (file.fd_ >= 0 && ::access(own_descriptor(file.fd_).c_str(), F_OK) != 0) {
+    ::close(std::exchange(file.fd_, -1));
   }
 #endif
   if (file.fd_ < 0) {
@@ -153,12 +162,13 @@ Result<void> AtomicFile::write_at(const void* data, std::size_t bytes, std::uint
 Result<void> AtomicFile::commit() {
   if (temporary_.empty()) {
     // A nameless file gets a temporary name first: linking cannot replace what is there, renaming can.
-    const std::string name = temporary_name(target_);
-    const std::string self = fmt::format("/proc/self/fd/{}", fd_);
+    std::string name = temporary_name(target_);
+    const std::string self = own_descriptor(fd_);
     if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0) {
       return system_error(path_, "write", errno);
     }
-    temporary_ = name;
+    // Takes no memory, for want of which the name would stay.
+    temporary_ = std::move(name);
   }
   // Some systems report a full device only here.
   const int closed = ::close(std::exchange(fd_, -1));

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
 // Plans are well within; text beyond these is built to use up memory or time.
-constexpr int kDeepest = 16;
+constexpr std::size_t kDeepest = 16;
 constexpr std::size_t kMaxValues = 4'000'000;
 constexpr std::size_t kMaxKeys = 1024;  // of one object, whose keys are searched one by one
 constexpr const char* kMeasure = "CIEDE2000 against 1 nm integration, cross-validated";
@@ -70,22 +70,46 @@ struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Refuses text that is built to use up memory or time, while it is parsed.
-class Guard {
+/// Refuses text that is built to use up memory or time, before anything is made of it. (The library's own
+/// callback, while it parses, looks through a whole list at each object's end.)
+class Guard : public nlohmann::json_sax<Json> {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json&) {
-    if (depth > kDeepest) throw Refused(fmt::format("is nested more than {} deep", kDeepest));
-    const auto at = static_cast<std::size_t>(depth);
-    if (event == Json::parse_event_t::object_start) keys_[at + 1] = 0;
-    if (event == Json::parse_event_t::key && ++keys_[at] > kMaxKeys) {
-      throw Refused(fmt::format("has an object of more than {} keys", kMaxKeys));
-    }
-    if (++values_ > kMaxValues) throw Refused(fmt::format("holds more than {} values", kMaxValues));
+  bool null() override { return value(); }
+  bool boolean(bool /*value*/) override { return value(); }
+  bool number_integer(number_integer_t /*value*/) override { return value(); }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return value(); }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return value(); }
+  bool string(string_t& /*value*/) override { return value(); }
+  bool binary(binary_t& /*value*/) override { return value(); }
+  bool start_object(std::size_t /*elements*/) override { return open(); }
+  bool key(string_t& /*name*/) override {
+    if (++keys_.back() > kMaxKeys) throw Refused(fmt::format("has an object of more than {} keys", kMaxKeys));
     return true;
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*elements*/) override { return open(); }
+  bool end_array() override { return close(); }
+  /// The parser proper says what is wrong.
+  bool parse_error(std::size_t /*at*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& /*error*/) override {
+    return false;
   }
 
  private:
-  std::array<std::size_t, kDeepest + 2> keys_{};
+  bool value() {
+    if (++values_ > kMaxValues) throw Refused(fmt::format("holds more than {} values", kMaxValues));
+    return true;
+  }
+  bool open() {
+    if (keys_.size() > kDeepest) throw Refused(fmt::format("is nested more than {} deep", kDeepest));
+    keys_.push_back(0);
+    return value();
+  }
+  bool close() {
+    keys_.pop_back();
+    return true;
+  }
+  std::vector<std::size_t> keys_ = {};  // of each object or list that is open
   std::size_t values_ = 0;
 };
 
@@ -261,7 +285,9 @@ Result<Plan> parse_plan(std::string_view json, const std::string& source) {
   };
   if (json.size() > kMaxBytes) return refuse("is larger than 64 MiB, which no plan is");
   try {
-    Plan plan = plan_from(Json::parse(json, Guard()));
+    Guard guard;
+    Json::sax_parse(json, &guard);
+    Plan plan = plan_from(Json::parse(json));
     if (const std::string what = io::plan_flaw(plan); !what.empty()) return refuse(what);
     return plan;
   } catch (const Refused& refused) {
