@@ -71,9 +71,8 @@ Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choic
 
 }  // namespace
 
-Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& path) const {
+Result<Bands> bands_read(const std::vector<SpectralChannel>& read) {
   std::vector<Band> list;
-  for (const MappedChannel& channel : mapped) list.push_back(channel.band);
   for (std::size_t i = 0; i < read.size(); ++i) {
     const SpectralChannel& channel = read[i];
     if (channel.upper_nm > 0) list.push_back({channel.lower_nm, channel.wavelength_nm, channel.upper_nm});
@@ -88,12 +87,16 @@ Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& pa
     }
     list.push_back({lower, lower + width / 2, lower + width});
   }
-  auto out = [&]() -> Result<Bands> {
-    if (!list.empty()) return Bands::from_list(std::move(list));
-    std::vector<double> centres;
-    for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
-    return Bands::from_centres(centres);
-  }();
+  if (!list.empty()) return Bands::from_list(std::move(list));
+  std::vector<double> centres;
+  for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
+  return Bands::from_centres(centres);
+}
+
+Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& path) const {
+  std::vector<Band> list;
+  for (const MappedChannel& channel : mapped) list.push_back(channel.band);
+  auto out = list.empty() ? bands_read(read) : Bands::from_list(std::move(list));
   if (!out) return make_error(ErrorCode::kBadFile, "{}: {}", path, out.error().message);
   return with_plan(header, *out, path);
 }
@@ -139,11 +142,12 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
     std::map<Key, std::vector<std::pair<std::string, SpectralChannel>>> found;
     for (const StoredChannel& stored : header.channels()) {
       const auto channel = parse_spectral_channel(stored.name, header);
-      if (!channel || channel->kind == SpectralKind::kPolarised) continue;
+      if (!channel) continue;
       auto [layer, view] = layer_and_view(channel->prefix, views);
       if (view.empty()) view = header.text("view").value_or("");
-      const Quantity quantity =
-          channel->kind == SpectralKind::kEmissive ? Quantity::kIlluminant : Quantity::kReflectance;
+      const bool light =
+          channel->kind == SpectralKind::kEmissive || channel->kind == SpectralKind::kPolarised;
+      const Quantity quantity = light ? Quantity::kIlluminant : Quantity::kReflectance;
       found[{layer, view, quantity}].emplace_back(stored.name, *channel);
     }
     for (auto& [key, channels] : found) {
@@ -158,6 +162,10 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
           set.reradiating.emplace_back(name, channel);
           continue;
         }
+        if (channel.kind == SpectralKind::kPolarised) {
+          set.polarised.emplace_back(name, channel);
+          continue;
+        }
         set.dialect = channel.dialect;
         set.quantity_assumed = !channel.dialect->says_quantity;
         set.names.push_back(name);
@@ -169,15 +177,19 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
   return out;
 }
 
-Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const ChannelChoice& choice,
-                                                  std::optional<Quantity> quantity,
-                                                  std::vector<std::string>& notes) {
+namespace {
+
+/// The set that the choice and the quantity ask for, and where `all_quantities` that of the other quantity
+/// beside it. Empty where the file holds no spectra.
+Result<std::vector<SpectralSet>> choose(const ExrInput& input, const ChannelChoice& choice,
+                                        std::optional<Quantity> quantity, bool all_quantities,
+                                        std::vector<std::string>& notes) {
   if (!choice.map.empty()) {
     SPECTILE_ASSIGN(auto set, mapped_set(input, choice, quantity, notes));
-    return std::optional(std::move(set));
+    return std::vector{std::move(set)};
   }
   const std::vector<SpectralSet> all = spectral_sets(input);
-  if (all.empty()) return std::optional<SpectralSet>();
+  if (all.empty()) return std::vector<SpectralSet>();
   SPECTILE_ASSIGN(const auto part, chosen_part(input, choice.part));
   std::vector<SpectralSet> fit;
   for (SpectralSet set : all) {
@@ -201,7 +213,7 @@ Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const C
   std::ranges::stable_sort(fit, {}, [](const SpectralSet& s) {
     return std::tuple(!s.layer.empty(), !s.default_view, s.part, s.quantity != Quantity::kReflectance);
   });
-  SpectralSet chosen = fit.front();
+  const SpectralSet chosen = fit.front();
   const bool other_layers =
       std::any_of(fit.begin(), fit.end(), [&](const auto& s) { return s.layer != chosen.layer; });
   if (!chosen.layer.empty() && choice.layer.empty()) {
@@ -216,15 +228,34 @@ Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const C
     notes.push_back(fmt::format("{}'s channels are taken for light; --quantity reflectance states the other",
                                 chosen.dialect->name));
   }
+  std::vector<SpectralSet> out = {chosen};
   std::vector<SpectralSet> rest;
   for (const SpectralSet& set : all) {
-    if (set.names != chosen.names || set.part != chosen.part) rest.push_back(set);
+    if (set.names == chosen.names && set.part == chosen.part) continue;
+    const bool beside = set.part == chosen.part && set.layer == chosen.layer && set.view == chosen.view;
+    (all_quantities && !quantity && beside ? out : rest).push_back(set);
   }
   if (!rest.empty()) {
     notes.push_back(
         fmt::format("left out: {} (see --layer, --view, --part, --quantity)", list(rest, described)));
   }
-  return std::optional(std::move(chosen));
+  return out;
+}
+
+}  // namespace
+
+Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const ChannelChoice& choice,
+                                                  std::optional<Quantity> quantity,
+                                                  std::vector<std::string>& notes) {
+  SPECTILE_ASSIGN(auto chosen, choose(input, choice, quantity, false, notes));
+  if (chosen.empty()) return std::optional<SpectralSet>();
+  return std::optional(std::move(chosen.front()));
+}
+
+Result<std::vector<SpectralSet>> choose_all_spectra(const ExrInput& input, const ChannelChoice& choice,
+                                                    std::optional<Quantity> quantity,
+                                                    std::vector<std::string>& notes) {
+  return choose(input, choice, quantity, true, notes);
 }
 
 std::string asked_for(const ChannelChoice& choice) {

@@ -11,6 +11,19 @@
 
 namespace spectile::io {
 
+Error no_spectra(const ExrInput& input) {
+  for (int part = 0; part < input.parts(); ++part) {
+    if (input.header(part).deep() || !claims_coefficients(input.header(part))) continue;
+    return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
+                      input.path());
+  }
+  return make_error(ErrorCode::kBadFile,
+                    "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
+                    "map (--channels) "
+                    "says which wavelengths other names stand for",
+                    input.path());
+}
+
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              const ChannelChoice& choice,
                                                              std::optional<Quantity> wanted, int threads,
@@ -19,18 +32,7 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   SPECTILE_ASSIGN(source->input_, ExrInput::open(path, threads));
   const ExrInput& input = *source->input_;
   SPECTILE_ASSIGN(auto set, choose_spectra(input, choice, wanted, source->notes_));
-  if (!set) {
-    for (int part = 0; part < input.parts(); ++part) {
-      if (input.header(part).deep() || !claims_coefficients(input.header(part))) continue;
-      return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
-                        path);
-    }
-    return make_error(ErrorCode::kBadFile,
-                      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
-                      "map (--channels) "
-                      "says which wavelengths other names stand for",
-                      path);
-  }
+  if (!set) return no_spectra(input);
   source->part_ = set->part;
   source->set_ = *std::move(set);
   SPECTILE_ASSIGN(source->bands_, source->set_.bands(source->header(), path));
@@ -57,12 +59,12 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
   return source;
 }
 
-void SpectralSource::block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
-                           float* block) const {
+void load_block(const kernels::KernelTable& kernels, const std::vector<PlaneSpec>& planes,
+                std::size_t samples, const Strip& strip, int line, std::size_t x, float* block) {
   const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(strip.width) - x);
-  for (std::size_t band = 0; band < samples(); ++band, block += kLanesPerBlock) {
+  for (std::size_t band = 0; band < samples; ++band, block += kLanesPerBlock) {
     const std::byte* row = strip.row(band, line);
-    if (planes_[band].type == SampleType::kHalf) {
+    if (planes[band].type == SampleType::kHalf) {
       kernels.half_to_float(block, reinterpret_cast<const std::uint16_t*>(row) + x, kLanesPerBlock);
     } else {
       std::memcpy(block, reinterpret_cast<const float*>(row) + x, count * sizeof(float));

@@ -9,10 +9,18 @@
 #include <vector>
 
 #include "src/dispatch/dispatch.hpp"
-#include "src/io/convert/sources/image_source.hpp"
 #include "src/io/channels/spectral_sets.hpp"
+#include "src/io/convert/sources/image_source.hpp"
 
 namespace spectile::io {
+
+/// The error for a file without spectral channels.
+Error no_spectra(const ExrInput& input);
+
+/// The samples of kLanesPerBlock pixels from x on, of the first `samples` planes of a strip, as a block
+/// [sample][64]; x a multiple of kLanesPerBlock, pixels after the line's end zero.
+void load_block(const kernels::KernelTable& kernels, const std::vector<PlaneSpec>& planes,
+                std::size_t samples, const Strip& strip, int line, std::size_t x, float* block);
 
 /// Planes 0 to bands - 1 of its strips are the bands, those up to samples() - 1 re-radiation, if there is
 /// any; the others pass through.
@@ -30,10 +38,11 @@ class SpectralSource : public ImageSource {
   /// Bands and channels of re-radiation.
   std::size_t samples() const noexcept { return bands_.count() + reradiation_.size(); }
 
-  /// The samples of kLanesPerBlock pixels from x on, as a block [sample][64]; x a multiple of kLanesPerBlock,
-  /// pixels after the line's end zero.
+  /// See load_block().
   void block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
-             float* block) const;
+             float* block) const {
+    load_block(kernels, planes_, samples(), strip, line, x, block);
+  }
 
  private:
   SpectralSource() = default;
