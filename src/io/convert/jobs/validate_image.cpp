@@ -16,7 +16,7 @@
 namespace spectile {
 namespace {
 
-/// What is unusual about the samples of the channels of one kind.
+/// Unusual samples of the channels of one kind.
 struct SampleCounts {
   std::uint64_t nonfinite = 0;
   std::uint64_t negative = 0;
