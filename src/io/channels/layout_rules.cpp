@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -124,13 +125,16 @@ class Checker {
   }
 
   void check_duplicates() {
-    for (const auto& [key, component] : components_) {
-      for (std::size_t i = 0; i < component.names.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-          if (std::abs(component.wavelengths[i] - component.wavelengths[k]) > kSameNm) continue;
-          breaks("duplicate", fmt::format("\"{}\" and \"{}\" are of one wavelength", component.names[k],
-                                          component.names[i]));
-        }
+    for (auto& [key, component] : components_) {
+      std::vector<std::size_t> order(component.names.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::ranges::stable_sort(order, {}, [&](std::size_t i) { return component.wavelengths[i]; });
+      for (std::size_t i = 1; i < order.size(); ++i) {
+        const std::size_t a = order[i - 1];
+        const std::size_t b = order[i];
+        if (component.wavelengths[b] - component.wavelengths[a] > kSameNm) continue;
+        breaks("duplicate", fmt::format("\"{}\" and \"{}\" are of one wavelength", component.names[a],
+                                        component.names[b]));
       }
     }
   }

@@ -125,14 +125,14 @@ class HeaderMaker {
     note_place(set);
   }
 
+  /// A layer, or a view that is not the default one, whose spectra become plain beside a plain preview.
   void note_place(const SpectralSet& set) {
-    if (&set != &spectra_.front().from->set) return;
-    if (!set.layer.empty()) {
-      notes_.push_back(fmt::format("the channels of layer \"{}\" become plain ones", set.layer));
-    }
-    if (!source_.views().empty() && !set.default_view) {
-      notes_.push_back(fmt::format("the channels of view \"{}\" become plain ones", set.view));
-    }
+    const bool of_view = !source_.views().empty() && !set.default_view;
+    if (&set != &spectra_.front().from->set || (set.layer.empty() && !of_view)) return;
+    const std::string place =
+        set.layer.empty() ? fmt::format("view \"{}\"", set.view) : fmt::format("layer \"{}\"", set.layer);
+    notes_.push_back(fmt::format("the channels of {} become plain ones{}", place,
+                                 source_.find("R") == nullptr ? "" : "; R, G, B stay what they are"));
   }
 
   void note_lost() {

@@ -1,7 +1,9 @@
 // convert_image: a spectral image in another dialect, in other bands or units.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <spectile/image/convert.hpp>
+#include <string_view>
 
 #include "src/base/errors.hpp"
 #include "src/io/channels/dialect_names.hpp"
@@ -88,6 +90,17 @@ std::vector<io::BandAverage> averages_of(const SourceSpectra& spectra, const Con
   return out;
 }
 
+/// Errors: kBadArgument for a channel that passes through under a name of another, and for bands of one name.
+Result<void> check_names(const std::vector<io::ChannelSpec>& channels, const std::string& input) {
+  std::set<std::string_view> names;
+  for (const io::ChannelSpec& channel : channels) {
+    if (names.insert(channel.name).second) continue;
+    return make_error(ErrorCode::kBadArgument, "{}: two channels of the output would be named \"{}\"", input,
+                      channel.name);
+  }
+  return {};
+}
+
 /// Makes output channels of a source's planes.
 class SumMaker {
  public:
@@ -153,6 +166,7 @@ Result<ImageReport> convert_file(const std::string& input, const std::string& ou
   known.quantity = source->spectra().front().set.quantity;
 
   io::ConvertJob job(*source, std::move(maker).take(), options, setup.kernels);
+  SPECTILE_TRY(check_names(job.channels(), input));
   io::ImageSpec spec = io::converted_spec(*source, *dialect, spectra, job.channels(), options, known.notes);
   return io::run_image_job({job, output, std::move(spec), options,
                             io::at_nonfinite(input, options, source->offset()), std::move(known)});

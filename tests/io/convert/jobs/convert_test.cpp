@@ -124,7 +124,8 @@ TEST_F(ConvertImages, HoldReflectanceAndEmissionTogether) {
   // A layer becomes plain.
   options = {};
   options.channels.layer = "fog";
-  EXPECT_THAT(convert(options).notes, Contains("the channels of layer \"fog\" become plain ones"));
+  EXPECT_THAT(convert(options).notes,
+              Contains("the channels of layer \"fog\" become plain ones; R, G, B stay what they are"));
   EXPECT_TRUE(output().planes.at("S0.500,000000nm") == picture.planes.at("fog.S0.500nm"));
 }
 
@@ -153,6 +154,12 @@ TEST_F(ConvertImages, DialectsOfLightRefuseOtherThings) {
   const Error error = error_of(options);
   EXPECT_EQ(error.code, ErrorCode::kBadArgument);
   EXPECT_THAT(error.message, HasSubstr("Indigo has no names for Stokes components"));
+  // A channel that passes through has the name already.
+  Picture taken = blank(2, 2);
+  for (const char* name : {"S0.500nm", "wl0"}) taken.add(name, Imf::HALF, [](int, int) { return 1; });
+  options.dialect = "ocean";
+  write_scanlines(in_, taken);
+  EXPECT_THAT(error_of(options).message, HasSubstr("two channels of the output would be named \"wl0\""));
   options.dialect = "pbrt";
   EXPECT_EQ(error_of(options).code, ErrorCode::kUnknownName);
 }
