@@ -12,6 +12,7 @@
 #include <spectile/float_buffer.hpp>
 #include <spectile/image/average.hpp>
 #include <spectile/image/channel_map.hpp>
+#include <spectile/image/convert.hpp>
 #include <spectile/image/film_file.hpp>
 #include <spectile/image/image.hpp>
 #include <spectile/image/plan_file.hpp>

@@ -10,6 +10,8 @@ void add_upsample(const Command& app, int& exit);
 void add_expand(const Command& app, int& exit);
 void add_relight(const Command& app, int& exit);
 void add_project(const Command& app, int& exit);
+void add_convert(const Command& app, int& exit);
+void add_validate(const Command& app, int& exit);
 void add_info(const Command& app, int& exit);
 void add_verify(const Command& app, int& exit);
 void add_spectra(const Command& app, int& exit);

@@ -33,7 +33,9 @@ int run(int argc, char** argv) {
   add_expand(app, exit);
   add_relight(app, exit);
   add_project(app, exit);
+  add_convert(app, exit);
   add_info(app, exit);
+  add_validate(app, exit);
   add_verify(app, exit);
   add_spectra(app, exit);
   add_plan(app, exit);

@@ -58,6 +58,7 @@ TEST_F(TilesTool, MipLevelsOfEveryConversion) {
   expect_tiles({"upsample", in_, "--mipmap"}, 64, 64, 7);
   std::filesystem::copy_file(out_, folder_ / "s.exr");
   expect_tiles({"project", folder_ / "s.exr", "--mipmap", "--tile", "16", "16"}, 16, 16, 7);
+  expect_tiles({"convert", folder_ / "s.exr", "--mipmap"}, 64, 64, 7);
   expect_tiles({"relight", in_, "--illuminant", "A", "--mipmap"}, 64, 64, 7);
   const auto stored = run_tool({"upsample", in_, "--store", "coefficients", "-o", folder_ / "c.exr"});
   ASSERT_EQ(stored.exit, 0) << stored;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <spectile/image/convert.hpp>
 #include <spectile/image/image.hpp>
 #include <spectile/result.hpp>
 #include <string>
@@ -17,6 +18,7 @@ std::string settings_text(const UpsampleImageOptions& options);
 std::string settings_text(const RelightImageOptions& options);
 std::string settings_text(const ProjectImageOptions& options);
 std::string settings_text(const ExpandImageOptions& options);
+std::string settings_text(const ConvertImageOptions& options);
 
 /// The settings that an image says it was made with; empty where it does not say. Errors: kBadFile,
 /// kNoPermission.

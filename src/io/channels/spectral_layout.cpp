@@ -96,6 +96,27 @@ std::optional<SpectralChannel> parse_layout(std::string_view name, const PartHea
   return channel;
 }
 
+/// A number with six decimals, as the layout writes it.
+std::string wavelength_text(double nm) {
+  std::string out = fmt::format("{:.6f}nm", nm);
+  out[out.find('.')] = ',';
+  return out;
+}
+
+WrittenChannel write_layout(const Band& band, std::size_t /*number*/, SpectralKind kind) {
+  const std::string name = spectral_channel_name(kind, band.centre_nm);
+  return {name, parse_layout(name, {}).value_or(SpectralChannel())};
+}
+
+/// A number of `least` to 6 decimals, no more than it has.
+std::string decimals(double value, std::size_t least) {
+  std::string out = fmt::format("{:.6f}", value);
+  const std::size_t kept = out.find('.') + 1 + least;
+  while (out.size() > kept && out.back() == '0') out.pop_back();
+  if (out.back() == '.') out.pop_back();
+  return out;
+}
+
 /// As spectral OpenEXR files of Mitsuba 0.6 name their channels.
 std::optional<SpectralChannel> parse_range(std::string_view name, const PartHeader& /*header*/) {
   SpectralChannel channel;
@@ -110,6 +131,12 @@ std::optional<SpectralChannel> parse_range(std::string_view name, const PartHead
   return channel;
 }
 
+/// With the two decimals that Mitsuba writes, or more where edges have more.
+WrittenChannel write_range(const Band& band, std::size_t /*number*/, SpectralKind /*kind*/) {
+  const std::string name = fmt::format("{}-{}nm", decimals(band.lower_nm, 2), decimals(band.upper_nm, 2));
+  return {name, parse_range(name, {}).value_or(SpectralChannel())};
+}
+
 /// As spectral OpenEXR files of Indigo name their channels.
 std::optional<SpectralChannel> parse_indigo(std::string_view name, const PartHeader& /*header*/) {
   SpectralChannel channel;
@@ -119,6 +146,20 @@ std::optional<SpectralChannel> parse_indigo(std::string_view name, const PartHea
   const auto value = take_number(name, '_');
   if (!value || !name.empty()) return std::nullopt;
   channel.wavelength_nm = *value;
+  return channel;
+}
+
+WrittenChannel write_indigo(const Band& band, std::size_t /*number*/, SpectralKind /*kind*/) {
+  std::string name = "wavelength" + decimals(band.lower_nm, 0);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return {name, parse_indigo(name, {}).value_or(SpectralChannel())};
+}
+
+SpectralChannel ocean_channel(double metres) {
+  SpectralChannel channel;
+  channel.kind = SpectralKind::kEmissive;
+  // Metres as doubles are nanometres but for their last digits.
+  channel.wavelength_nm = std::round(metres * 1e15) / 1e6;
   return channel;
 }
 
@@ -132,20 +173,58 @@ std::optional<SpectralChannel> parse_ocean(std::string_view name, const PartHead
   }
   const auto metres = header.number(std::string(name) + ".wavelength");
   if (!metres) return std::nullopt;
-  SpectralChannel channel;
-  channel.kind = SpectralKind::kEmissive;
-  // Metres as doubles are nanometres but for their last digits.
-  channel.wavelength_nm = std::round(*metres * 1e15) / 1e6;
+  const SpectralChannel channel = ocean_channel(*metres);
   if (!(channel.wavelength_nm > 0) || !std::isfinite(channel.wavelength_nm)) return std::nullopt;
   return channel;
 }
 
+WrittenChannel write_ocean(const Band& band, std::size_t number, SpectralKind /*kind*/) {
+  const double metres = band.centre_nm * 1e-9;
+  return {fmt::format("wl{}", number), ocean_channel(metres), metres};
+}
+
 constexpr Dialect kDialects[] = {
-    {"spectral layout", "T.500,000000nm, S0.500,000000nm", "centre", true, parse_layout},
-    {"Mitsuba 0.6", "360.00-375.67nm", "lower and upper edge", false, parse_range},
-    {"Indigo", "wavelength430_25", "lower edge", false, parse_indigo},
-    {"Ocean", "wl0 and an attribute wl0.wavelength", "centre, in metres", false, parse_ocean},
+    {"layout", "spectral layout", "T.500,000000nm, S0.500,000000nm", "centre", true, parse_layout,
+     write_layout},
+    {"mitsuba06", "Mitsuba 0.6", "360.00-375.67nm", "lower and upper edge", false, parse_range, write_range},
+    {"indigo", "Indigo", "wavelength430_25", "lower edge", false, parse_indigo, write_indigo},
+    {"ocean", "Ocean", "wl0 and an attribute wl0.wavelength", "centre, in metres", false, parse_ocean,
+     write_ocean},
 };
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+void skip_digits(std::string_view& text) {
+  while (!text.empty() && is_digit(text.front())) text.remove_prefix(1);
+}
+
+/// A number and a unit of the layout's grammar at the start of `text`, which they are taken from:
+/// digits, a comma and more digits, a power of ten, an SI prefix, m or Hz.
+bool take_strict_wavelength(std::string_view& text) {
+  const std::string_view number = text;
+  skip_digits(text);
+  if (take(text, ",")) skip_digits(text);
+  const std::string_view mantissa = number.substr(0, number.size() - text.size());
+  if (std::none_of(mantissa.begin(), mantissa.end(), is_digit)) return false;
+  if (text.starts_with('e') || text.starts_with('E')) {
+    std::string_view power = text.substr(1);
+    if (power.starts_with('+') || power.starts_with('-')) power.remove_prefix(1);
+    const std::size_t before = power.size();
+    skip_digits(power);
+    // E stands for exa too.
+    if (power.size() < before) text = power;
+  }
+  for (const auto& prefix : kPrefixes) {
+    std::string_view unit = text;
+    if (!take(unit, prefix.symbol) || !(take(unit, "m") || take(unit, "Hz"))) continue;
+    if (!unit.empty() && unit.front() != '.') continue;
+    text = unit;
+    return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -153,12 +232,33 @@ std::span<const Dialect> dialects() {
   return kDialects;
 }
 
+const Dialect* find_dialect(std::string_view key) {
+  for (const Dialect& dialect : kDialects) {
+    if (dialect.key == key) return &dialect;
+  }
+  return nullptr;
+}
+
 std::string spectral_channel_name(SpectralKind kind, double wavelength_nm) {
-  std::string name =
-      fmt::format("{}.{:.6f}nm", kind == SpectralKind::kReflective ? "T" : "S0", wavelength_nm);
-  const std::size_t point = name.rfind('.');
-  name[point] = ',';
-  return name;
+  return (kind == SpectralKind::kReflective ? "T." : "S0.") + wavelength_text(wavelength_nm);
+}
+
+std::string stokes_channel_name(int component, double wavelength_nm) {
+  return fmt::format("S{}.{}", component, wavelength_text(wavelength_nm));
+}
+
+std::string reradiation_channel_name(double from_nm, double to_nm) {
+  return fmt::format("T.{}.{}", wavelength_text(from_nm), wavelength_text(to_nm));
+}
+
+bool is_strict_layout_name(std::string_view name) {
+  const bool reflective = take(name, "T.");
+  if (!reflective && !(take(name, "S0.") || take(name, "S1.") || take(name, "S2.") || take(name, "S3."))) {
+    return false;
+  }
+  if (!take_strict_wavelength(name)) return false;
+  if (name.empty()) return true;
+  return reflective && take(name, ".") && take_strict_wavelength(name) && name.empty();
 }
 
 std::optional<SpectralChannel> parse_spectral_channel(std::string_view name, const PartHeader& header) {

@@ -51,10 +51,6 @@ std::string described(const SpectralSet& set) {
   return set.description();
 }
 
-bool is_reflectance(const SpectralSet& set) {
-  return set.quantity == Quantity::kReflectance;
-}
-
 /// That of all sets which fits a choice best. Errors: those of choose_spectra().
 Result<SpectralSet> best_fit(const ExrInput& input, const std::vector<SpectralSet>& all,
                              const ChannelChoice& choice, std::optional<Quantity> quantity,
@@ -138,9 +134,8 @@ Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choic
 
 }  // namespace
 
-Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& path) const {
+Result<Bands> bands_read(const std::vector<SpectralChannel>& read) {
   std::vector<Band> list;
-  for (const MappedChannel& channel : mapped) list.push_back(channel.band);
   for (std::size_t i = 0; i < read.size(); ++i) {
     const SpectralChannel& channel = read[i];
     if (channel.upper_nm > 0) list.push_back({channel.lower_nm, channel.wavelength_nm, channel.upper_nm});
@@ -155,12 +150,16 @@ Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& pa
     }
     list.push_back({lower, lower + width / 2, lower + width});
   }
-  auto out = [&]() -> Result<Bands> {
-    if (!list.empty()) return Bands::from_list(std::move(list));
-    std::vector<double> centres;
-    for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
-    return Bands::from_centres(centres);
-  }();
+  if (!list.empty()) return Bands::from_list(std::move(list));
+  std::vector<double> centres;
+  for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
+  return Bands::from_centres(centres);
+}
+
+Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& path) const {
+  std::vector<Band> list;
+  for (const MappedChannel& channel : mapped) list.push_back(channel.band);
+  auto out = list.empty() ? bands_read(read) : Bands::from_list(std::move(list));
   if (!out) return make_error(ErrorCode::kBadFile, "{}: {}", path, out.error().message);
   return with_plan(header, *out, path);
 }
@@ -259,37 +258,43 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
   return out;
 }
 
+namespace {
+
+/// The set that the choice and the quantity ask for, and where `all_quantities` that of the other quantity
+/// beside it. Empty where the file holds no spectra.
+Result<std::vector<SpectralSet>> choose(const ExrInput& input, const ChannelChoice& choice,
+                                        std::optional<Quantity> quantity, bool all_quantities,
+                                        std::vector<std::string>& notes) {
+  if (!choice.map.empty()) {
+    SPECTILE_ASSIGN(auto set, mapped_set(input, choice, quantity, notes));
+    return std::vector{std::move(set)};
+  }
+  const std::vector<SpectralSet> all = spectral_sets(input);
+  if (all.empty()) return std::vector<SpectralSet>();
+  SPECTILE_ASSIGN(const auto chosen, best_fit(input, all, choice, quantity, notes));
+  std::vector<SpectralSet> out = {chosen};
+  for (const SpectralSet& set : all) {
+    const bool beside = set.part == chosen.part && set.layer == chosen.layer && set.view == chosen.view;
+    if (all_quantities && !quantity && beside && set.names != chosen.names) out.push_back(set);
+  }
+  note_left_out(all, out, notes);
+  return out;
+}
+
+}  // namespace
+
 Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const ChannelChoice& choice,
                                                   std::optional<Quantity> quantity,
                                                   std::vector<std::string>& notes) {
-  if (!choice.map.empty()) {
-    SPECTILE_ASSIGN(auto set, mapped_set(input, choice, quantity, notes));
-    return std::optional(std::move(set));
-  }
-  const std::vector<SpectralSet> all = spectral_sets(input);
-  if (all.empty()) return std::optional<SpectralSet>();
-  SPECTILE_ASSIGN(auto chosen, best_fit(input, all, choice, quantity, notes));
-  note_left_out(all, {&chosen, 1}, notes);
-  return std::optional(std::move(chosen));
+  SPECTILE_ASSIGN(auto chosen, choose(input, choice, quantity, false, notes));
+  if (chosen.empty()) return std::optional<SpectralSet>();
+  return std::optional(std::move(chosen.front()));
 }
 
-Result<std::array<SpectralSet, 2>> choose_both(const ExrInput& input, const ChannelChoice& choice,
-                                               std::vector<std::string>& notes) {
-  const std::vector<SpectralSet> all = spectral_sets(input);
-  const auto lacks = [&](const char* what) {
-    return make_error(ErrorCode::kBadFile, "{}: has no {}, which both quantities need; it has {}",
-                      input.path(), what, all.empty() ? "no spectra" : list(all, described));
-  };
-  if (!choice.map.empty() || std::ranges::none_of(all, is_reflectance)) return lacks("reflectance");
-  SPECTILE_ASSIGN(auto reflectance, best_fit(input, all, choice, Quantity::kReflectance, notes));
-  const auto emission = std::ranges::find_if(all, [&](const SpectralSet& set) {
-    return !is_reflectance(set) && set.part == reflectance.part && set.layer == reflectance.layer &&
-           set.view == reflectance.view && set.names != reflectance.names;
-  });
-  if (emission == all.end()) return lacks("emission beside its reflectance");
-  std::array<SpectralSet, 2> chosen = {std::move(reflectance), *emission};
-  note_left_out(all, chosen, notes);
-  return chosen;
+Result<std::vector<SpectralSet>> choose_all_spectra(const ExrInput& input, const ChannelChoice& choice,
+                                                    std::optional<Quantity> quantity,
+                                                    std::vector<std::string>& notes) {
+  return choose(input, choice, quantity, true, notes);
 }
 
 std::string asked_for(const ChannelChoice& choice) {

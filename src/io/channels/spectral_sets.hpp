@@ -1,7 +1,6 @@
 // SpectralSet: spectral channels that belong together, and the choice among those that a file holds.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -35,7 +34,7 @@ struct SpectralSet {
   std::vector<SpectralChannel> read;  ///< of the names
   std::vector<MappedChannel> mapped;  ///< instead, for a channel map
   std::vector<std::pair<std::string, SpectralChannel>> reradiating;
-  std::vector<std::pair<std::string, SpectralChannel>> polarised;  // of emission
+  std::vector<std::pair<std::string, SpectralChannel>> polarised;  ///< of emission; ascending likewise
 
   /// Centres, or edges where the names have them. Errors: kBadFile.
   Result<Bands> bands(const PartHeader& header, const std::string& path) const;
@@ -58,10 +57,14 @@ Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const C
                                                   std::optional<Quantity> quantity,
                                                   std::vector<std::string>& notes);
 
-/// Reflectance, and the emission of the same part, layer and view. Errors: kBadFile where a file lacks one of
-/// them; those of choose_spectra().
-Result<std::array<SpectralSet, 2>> choose_both(const ExrInput& input, const ChannelChoice& choice,
-                                               std::vector<std::string>& notes);
+/// The same, with the set of the other quantity that the chosen one's part, layer and view hold too, where no
+/// quantity was asked for. Reflectance comes first. Empty where the file holds no spectra.
+Result<std::vector<SpectralSet>> choose_all_spectra(const ExrInput& input, const ChannelChoice& choice,
+                                                    std::optional<Quantity> quantity,
+                                                    std::vector<std::string>& notes);
+
+/// The bands that names are read as, without a plan. Errors: kBadArgument for those that no bands have.
+Result<Bands> bands_read(const std::vector<SpectralChannel>& read);
 
 /// The planes of a set's channels, in their order, those of re-radiation after the others.
 /// Errors: kBadFile for one that is subsampled.

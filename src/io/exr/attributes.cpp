@@ -151,7 +151,7 @@ Fate fate_of(const Imf::Header& from, const std::string& name, const Imf::Attrib
   if (std::find(rules.replaced.begin(), rules.replaced.end(), name) != rules.replaced.end()) {
     return Fate::kMadeAnew;
   }
-  const bool spectra_stay = rules.change == PixelChange::kAverage;
+  const bool spectra_stay = rules.change == PixelChange::kAverage || rules.change == PixelChange::kRenamed;
   switch (described_by(name, attribute.typeName())) {
     case Describes::kStorage:
       return Fate::kMadeAnew;
@@ -164,6 +164,9 @@ Fate fate_of(const Imf::Header& from, const std::string& name, const Imf::Attrib
       }
       return rules.change == PixelChange::kColor ? Fate::kLeftOut : Fate::kKept;
     case Describes::kSpectra:
+      if (rules.change == PixelChange::kRenamed && names_a_spectral_channel(name)) {
+        return rules.channels.contains(name) ? Fate::kKept : Fate::kLeftOut;
+      }
       return spectra_stay ? Fate::kKept : Fate::kLeftOut;
     case Describes::kColorSpace:
       return rules.change == PixelChange::kColor ? Fate::kMadeAnew : Fate::kKept;

@@ -20,6 +20,8 @@ enum class PixelChange {
   kSpectra,  ///< R, G, B are the source's, spectra beside them are new
   kColor,    ///< the colours are new, spectra are gone
   kAverage,  ///< all samples are averages, of the kind that they were
+  kRenamed,  ///< spectra mean what they did, under other names, in other bands or units; R, G, B are the
+             ///< source's
 };
 
 /// All that decides which of a source's attributes an output takes over.

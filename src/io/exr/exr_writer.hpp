@@ -41,6 +41,7 @@ struct ImageSpec {
   std::optional<std::array<int, 2>> tile;  // width, height; scanlines where none
   bool mipmap = false;                     // of tiles: smaller levels too, rounded down
   TextAttributes text_attributes;
+  std::vector<std::pair<std::string, double>> number_attributes;
   std::vector<std::string> replaced;
   PixelChange change = PixelChange::kSpectra;
   std::string view;  // of the source, from which plain R, G, B come; empty for its default one

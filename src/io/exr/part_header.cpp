@@ -140,6 +140,11 @@ std::vector<std::string> PartHeader::views() const {
   return found == nullptr ? std::vector<std::string>() : found->value();
 }
 
+std::string PartHeader::attribute_type(const std::string& name) const {
+  const auto found = imf_->find(name);
+  return found == imf_->end() ? std::string() : found.attribute().typeName();
+}
+
 bool PartHeader::has_attribute(const std::string& name) const {
   return imf_->find(name) != imf_->end();
 }

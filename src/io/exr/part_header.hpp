@@ -124,6 +124,8 @@ class PartHeader {
   std::vector<std::string> views() const;
   /// All attributes of type string but the part's type.
   std::vector<std::pair<std::string, std::string>> texts() const;
+  /// OpenEXR's name of the type of an attribute; empty where there is none of this name.
+  std::string attribute_type(const std::string& name) const;
   /// True if there is an attribute of this name, whatever its type.
   bool has_attribute(const std::string& name) const;
   /// Names of the channels whose samples name objects, so that no arithmetic makes sense of them: integers,

@@ -211,6 +211,18 @@ std::string settings_text(const ExpandImageOptions& options) {
   return std::move(line).text();
 }
 
+std::string settings_text(const ConvertImageOptions& options) {
+  Line line("convert");
+  line.add(options);
+  line.add("keep-depth", options.keep_depth ? "yes" : "no");
+  line.add("quantity", options.quantity ? to_string(*options.quantity) : "of the file");
+  line.add("dialect", quoted(options.dialect));
+  line.add("bands", options.bands ? to_text(*options.bands) : "of the file");
+  line.add("scale", fmt::format("{}", options.scale));
+  line.add("units", quoted(options.units));
+  return std::move(line).text();
+}
+
 Result<std::string> settings_of(const std::string& path) {
   return io::contained<std::string>(path, [&]() -> Result<std::string> {
     SPECTILE_ASSIGN(const auto input, io::ExrInput::open(path, 1));

@@ -12,9 +12,6 @@
 
 namespace spectile::io {
 
-namespace {
-
-/// The error of a file without spectra.
 Error no_spectra(const ExrInput& input) {
   for (int part = 0; part < input.parts(); ++part) {
     if (input.header(part).deep() || !claims_coefficients(input.header(part))) continue;
@@ -22,12 +19,11 @@ Error no_spectra(const ExrInput& input) {
                       input.path());
   }
   return make_error(ErrorCode::kBadFile,
-                    "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel map "
+                    "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
+                    "map (--channels) "
                     "says which wavelengths other names stand for",
                     input.path());
 }
-
-}  // namespace
 
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,
                                                              const ChannelChoice& choice,
@@ -45,16 +41,20 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
 Result<void> SpectralSource::choose(const ChannelChoice& choice, std::optional<Quantity> wanted,
                                     SpectralContent content) {
   const std::string& path = input_->path();
-  std::optional<SpectralSet> emission;
-  if (content == SpectralContent::kBothQuantities) {
-    SPECTILE_ASSIGN(auto both, choose_both(*input_, choice, notes_));
-    set_ = std::move(both[0]);
-    emission = std::move(both[1]);
+  const bool both = content == SpectralContent::kBothQuantities;
+  std::vector<SpectralSet> sets;
+  if (both) {
+    SPECTILE_ASSIGN(sets, choose_all_spectra(*input_, choice, std::nullopt, notes_));
   } else {
     SPECTILE_ASSIGN(auto set, choose_spectra(*input_, choice, wanted, notes_));
-    if (!set) return no_spectra(*input_);
-    set_ = *std::move(set);
+    if (set) sets.push_back(*std::move(set));
   }
+  if (sets.empty()) return no_spectra(*input_);
+  if (both && sets.size() != 2) {
+    return make_error(ErrorCode::kBadFile, "{}: both quantities were asked for; it has {} alone", path,
+                      sets.front().description());
+  }
+  set_ = std::move(sets.front());
   part_ = set_.part;
   SPECTILE_ASSIGN(bands_, set_.bands(header(), path));
   SPECTILE_ASSIGN(reradiation_, set_.reradiation(bands_, path));
@@ -62,9 +62,9 @@ Result<void> SpectralSource::choose(const ChannelChoice& choice, std::optional<Q
   const auto add = [&](const std::vector<PlaneSpec>& more) {
     planes_.insert(planes_.end(), more.begin(), more.end());
   };
-  if (emission) {
-    SPECTILE_ASSIGN(emission_bands_, emission->bands(header(), path));
-    SPECTILE_ASSIGN(const auto planes, band_planes(header(), *emission, path));
+  if (both) {
+    SPECTILE_ASSIGN(emission_bands_, sets.back().bands(header(), path));
+    SPECTILE_ASSIGN(const auto planes, band_planes(header(), sets.back(), path));
     add(planes);
   }
   for (const int component : {1, 2}) {
@@ -99,12 +99,12 @@ Result<void> SpectralSource::add_passing() {
   return {};
 }
 
-void SpectralSource::block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
-                           float* block) const {
+void load_block(const kernels::KernelTable& kernels, const std::vector<PlaneSpec>& planes,
+                std::size_t samples, const Strip& strip, int line, std::size_t x, float* block) {
   const std::size_t count = std::min(kLanesPerBlock, static_cast<std::size_t>(strip.width) - x);
-  for (std::size_t band = 0; band < samples(); ++band, block += kLanesPerBlock) {
+  for (std::size_t band = 0; band < samples; ++band, block += kLanesPerBlock) {
     const std::byte* row = strip.row(band, line);
-    if (planes_[band].type == SampleType::kHalf) {
+    if (planes[band].type == SampleType::kHalf) {
       kernels.half_to_float(block, reinterpret_cast<const std::uint16_t*>(row) + x, kLanesPerBlock);
     } else {
       std::memcpy(block, reinterpret_cast<const float*>(row) + x, count * sizeof(float));

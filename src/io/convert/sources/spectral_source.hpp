@@ -14,6 +14,14 @@
 
 namespace spectile::io {
 
+/// The error for a file without spectral channels.
+Error no_spectra(const ExrInput& input);
+
+/// The samples of kLanesPerBlock pixels from x on, of the first `samples` planes of a strip, as a block
+/// [sample][64]; x a multiple of kLanesPerBlock, pixels after the line's end zero.
+void load_block(const kernels::KernelTable& kernels, const std::vector<PlaneSpec>& planes,
+                std::size_t samples, const Strip& strip, int line, std::size_t x, float* block);
+
 /// What of a file's spectra is read.
 enum class SpectralContent {
   kOneQuantity,         ///< the bands, then re-radiation
@@ -39,10 +47,11 @@ class SpectralSource : public ImageSource {
   /// Planes of spectra.
   std::size_t samples() const noexcept { return samples_; }
 
-  /// The samples of kLanesPerBlock pixels from x on, as a block [sample][64]; x a multiple of kLanesPerBlock,
-  /// pixels after the line's end zero.
+  /// See load_block().
   void block(const kernels::KernelTable& kernels, const Strip& strip, int line, std::size_t x,
-             float* block) const;
+             float* block) const {
+    load_block(kernels, planes_, samples(), strip, line, x, block);
+  }
 
  private:
   SpectralSource() = default;

@@ -34,6 +34,7 @@ AttributeRules ImageSpec::rules() const {
   AttributeRules out = {change, {}, replaced, view};
   for (const ChannelSpec& channel : channels) out.channels.insert(channel.name);
   for (const auto& [name, text] : text_attributes) out.replaced.push_back(name);
+  for (const auto& [name, number] : number_attributes) out.replaced.push_back(name);
   return out;
 }
 
@@ -72,6 +73,9 @@ Result<void> ExrWriter::start_part(const ImageSpec& spec, const std::string& nam
   SPECTILE_TRY(check(copy_attributes(source, context_, part, spec.rules())));
   for (const auto& [attribute, text] : spec.text_attributes) {
     SPECTILE_TRY(check(exr_attr_set_string(context_, part, attribute.c_str(), text.c_str())));
+  }
+  for (const auto& [attribute, number] : spec.number_attributes) {
+    SPECTILE_TRY(check(exr_attr_set_double(context_, part, attribute.c_str(), number)));
   }
 
   out.image = {data.width(), data.height()};

@@ -166,6 +166,16 @@ TEST(Settings, DifferentOptionsGiveDifferentTexts) {
   add_each<ExpandImageOptions>(texts, {},
                                {{"bands", [](auto& o) { o.bands = Bands(); }},
                                 {"other bands", [](auto& o) { o.bands = *Bands::parse("400:700:10"); }}});
+
+  add_image_options(texts, ConvertImageOptions());
+  add_each<ConvertImageOptions>(texts, {},
+                                {{"depth", [](auto& o) { o.keep_depth = false; }},
+                                 {"reflectance", [](auto& o) { o.quantity = Quantity::kReflectance; }},
+                                 {"illuminant", [](auto& o) { o.quantity = Quantity::kIlluminant; }},
+                                 {"dialect", [](auto& o) { o.dialect = "ocean"; }},
+                                 {"bands", [](auto& o) { o.bands = Bands(); }},
+                                 {"scale", [](auto& o) { o.scale = 1 + 1e-15; }},
+                                 {"units", [](auto& o) { o.units = "lx\"; scale=\"2"; }}});
 }
 
 TEST(Settings, WhatChangesNoBitIsNotInThem) {

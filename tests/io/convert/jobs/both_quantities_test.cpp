@@ -98,7 +98,8 @@ TEST_F(BothQuantities, AreBothNeeded) {
     Picture picture = blank(2, 2);
     add_even(picture, "", 0.5, kind);
     write_scanlines(in_, picture);
-    EXPECT_THAT(error_of(options), HasSubstr(kind[0] == 'T' ? "no emission" : "no reflectance"));
+    EXPECT_THAT(error_of(options),
+                HasSubstr(kind[0] == 'T' ? "31 bands of reflectance alone" : "31 bands of emission alone"));
   }
   Picture picture = sample();
   write_scanlines(in_, picture);

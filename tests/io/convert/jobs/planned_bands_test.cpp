@@ -185,6 +185,23 @@ TEST_F(PlannedBandsImages, VerifyAgainstTheirOwnTables) {
   }
 }
 
+TEST_F(PlannedBandsImages, AreConvertedWithTheirPlanButNotToOtherBands) {
+  ASSERT_TRUE(upsample_image(in_, spectral_, options_));
+  ConvertImageOptions options;
+  const auto kept = convert_image(spectral_, out_, options);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(*inspect_image(out_)->bands, options_.bands);
+  EXPECT_TRUE(test::read_picture(out_).planes == test::read_picture(spectral_).planes);
+  options.bands = Bands();
+  const auto resampled = convert_image(spectral_, folder_ / "other.exr", options);
+  ASSERT_FALSE(resampled);
+  EXPECT_EQ(resampled.error().code, ErrorCode::kBadArgument);
+  EXPECT_THAT(resampled.error().message, HasSubstr("its bands are planned"));
+  options.bands = options_.bands;
+  EXPECT_THAT(convert_image(spectral_, folder_ / "other.exr", options).error().message,
+              HasSubstr("planned bands are weighed by their plan"));
+}
+
 TEST_F(PlannedBandsImages, HoldFilmsToo) {
   FilmOptions o;
   o.width = o.height = 2;
