@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,14 +34,26 @@ class Manifest {
   /// Throws: Stop.
   void open(const std::string& path) {
     path_ = path;
-    fd_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    fd_ = ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (fd_ < 0) throw Stop(complain_write(path, errno));
+    // A line that a full disk cut short stays a line of its own.
+    struct stat status {};
+    char last = '\n';
+    if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0 &&
+        ::pread(fd_, &last, 1, status.st_size - 1) == 1 && last != '\n') {
+      print_error("spectile: {}: its last line was cut short, and stays so\n", path);
+      write("\n");
+    }
   }
 
   /// Adds a line; nothing where no file is open. Throws: Stop.
   void add(const nlohmann::json& line) const {
-    if (fd_ < 0) return;
-    const std::string text = json_line(line) + "\n";
+    if (fd_ >= 0) write(json_line(line) + "\n");
+  }
+
+ private:
+  /// Throws: Stop.
+  void write(const std::string& text) const {
     ssize_t written = -1;
     // One write, so that no other process's line comes between.
     do {
@@ -51,7 +64,6 @@ class Manifest {
     throw Stop(kNoRoom);
   }
 
- private:
   int fd_ = -1;
   std::string path_;
 };
@@ -233,7 +245,7 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
       const auto bytes = fs::file_size(job.output, error);
       if (!error) entry["bytes"] = bytes;
       manifest.add(entry);
-      if (interrupted()) return kInterrupted;
+      if (interrupted()) return interrupted_exit();
       continue;
     }
     progress = progress_bar(fs::path(job.input).filename().string(), !common.quiet);
@@ -250,22 +262,23 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
       nlohmann::json entry = line(job, "failed");
       entry["error"] = report.error().message;
       manifest.add(entry);
-      if (interrupted()) return kInterrupted;
+      if (interrupted()) return interrupted_exit();
       continue;
     }
     ++converted;
-    if (common.json) {
-      report->notes.insert(report->notes.begin(), shared.notes.begin(), shared.notes.end());
-      print_json(report_json(job.input, job.output, *report));
-    } else if (!common.quiet) {
-      print_report(job.input, job.output, *report, shared.colors, notes, common.stats);
-    }
+    // Before the report, which standard output may refuse.
     nlohmann::json entry = line(job, "converted");
     entry["pixels"] = report->pixels();
     entry["bands"] = report->bands;
     entry["seconds"] = report->seconds;
     entry["bytes"] = report->bytes_written;
     manifest.add(entry);
+    if (common.json) {
+      report->notes.insert(report->notes.begin(), shared.notes.begin(), shared.notes.end());
+      print_json(report_json(job.input, job.output, *report));
+    } else if (!common.quiet) {
+      print_report(job.input, job.output, *report, shared.colors, notes, common.stats);
+    }
   }
   if (command.batch.update && common.shows_text()) {
     const std::size_t failed = batch.jobs.size() - converted - skipped;

@@ -1,6 +1,8 @@
 // The spectile command.
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -25,7 +27,7 @@ int run(int argc, char** argv) {
   app.footer(
       "Example:\n  spectile upsample wood.exr -o wood-spectral.exr\n"
       "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space or no permission,\n"
-      "130 interrupted.");
+      "130 or 143 interrupted (128 and the signal's number).");
   app.require_subcommand();
   int exit = kOk;
   add_demo(app, exit);
@@ -55,7 +57,20 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+namespace {
+
+/// Opens descriptors 0 to 2 on /dev/null where they are closed: the next file that is opened would have their
+/// number, and what is printed would go into it.
+void open_standard_descriptors() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor) {
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDWR));
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   // A file beyond the shell's size limit is then an error like a full disk, and does not end the process.
   static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {

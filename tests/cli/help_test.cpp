@@ -70,7 +70,7 @@ TEST(Help, OptionsAreInGroups) {
 }
 
 TEST(Help, NamesEveryExitCode) {
-  for (const char* code : {"0 done", "1 an input", "2 wrong usage", "3 no space", "130 interrupted"}) {
+  for (const char* code : {"0 done", "1 an input", "2 wrong usage", "3 no space", "130 or 143 interrupted"}) {
     EXPECT_THAT(help_of({}), HasSubstr(code));
   }
 }

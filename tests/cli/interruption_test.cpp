@@ -110,7 +110,7 @@ TEST_F(Interruption, InterruptEndsWithOneLineAndItsOwnCode) {
     for (const int moment : kMoments) {
       test::Tool tool(arguments(), {});
       const auto outcome = stop_after(tool, moment, signal);
-      EXPECT_EQ(outcome.exit, 130) << outcome;
+      EXPECT_EQ(outcome.exit, 128 + signal) << outcome;
       EXPECT_TRUE(outcome.one_line()) << outcome;
       EXPECT_EQ(outcome.out, "");
       EXPECT_THAT(left(), testing::IsEmpty()) << moment << " ms";

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/cli/output/print.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -39,7 +40,7 @@ int complain(const Error& error) {
     case ErrorCode::kUnavailable:
       return kBadUsage;
     case ErrorCode::kCancelled:
-      return kInterrupted;
+      return interrupted_exit();
     default:
       return kBadInput;
   }

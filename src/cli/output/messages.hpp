@@ -17,7 +17,8 @@ enum Exit : int {
   kBadInput = 1,       ///< an input that cannot be used
   kBadUsage = 2,       ///< wrong usage
   kNoRoom = 3,         ///< no space, no permission
-  kInterrupted = 130,  ///< stopped by a signal, as shells count it
+  kSignalBase = 128,   ///< stopped by a signal: this and its number; see interrupted_exit()
+  kInterrupted = 130,  ///< by SIGINT
 };
 
 /// The command that runs, such as "film merge": wrong usage names it, as its help explains what is right.

@@ -16,8 +16,8 @@ namespace {
 
 volatile std::sig_atomic_t signal_seen = 0;
 
-extern "C" void note_signal(int) {
-  signal_seen = 1;
+extern "C" void note_signal(int signal) {
+  signal_seen = signal;
 }
 
 /// A bar on stderr, redrawn ten times a second at most; nothing where stderr is no terminal.
@@ -65,6 +65,10 @@ ProgressFunction progress_bar(const std::string& label, bool enabled) {
 
 bool interrupted() {
   return signal_seen != 0;
+}
+
+int interrupted_exit() {
+  return signal_seen == 0 ? kInterrupted : kSignalBase + signal_seen;
 }
 
 void catch_signals() {

@@ -11,6 +11,8 @@ ProgressFunction progress_bar(const std::string& label, bool enabled);
 
 /// True once SIGINT or SIGTERM has come.
 bool interrupted();
+/// The exit code of a run that a signal stopped: 128 and the signal's number, as shells have it.
+int interrupted_exit();
 /// Makes SIGINT and SIGTERM end conversions cleanly.
 void catch_signals();
 
