@@ -98,6 +98,18 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       check(average_images(twice, folder.output(), options), folder, {});
       break;
     }
+    case 4: {
+      ConvertImageOptions options;
+      choose(choices, options);
+      options.keep_depth = choices.one_in(2);
+      const std::vector<std::string> dialects = spectral_dialects();
+      options.dialect = dialects[choices.one_in(2) ? 0 : choices.below(dialects.size())];
+      if (choices.one_in(4)) options.quantity = Quantity::kReflectance;
+      if (choices.one_in(4)) options.bands = Bands();
+      if (choices.one_in(4)) options.scale = 0.01;
+      check(convert_image(folder.input(), folder.output(), options), folder, settings_text(options));
+      break;
+    }
     default: {
       UpsampleImageOptions options;
       choose(choices, options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <spectile/image/convert.hpp>
 #include <spectile/image/settings.hpp>
 #include <spectile/image/spectral_texture.hpp>
 
@@ -82,6 +83,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     inspect(folder.input());
     rgb(folder.input());
     texture(folder.input());
+    fuzz::is_value(validate_image(folder.input(), 1));
     // Takes several times as long as the others together.
     if (fuzz::Choices(bytes).one_in(4)) verify(folder.input());
   }

@@ -160,10 +160,14 @@ Result<ImageReport> convert_file(const std::string& input, const std::string& ou
     io::ConvertedSpectra to = {&from, options.bands.value_or(from.bands), {}};
     SPECTILE_ASSIGN(to.names, io::dialect_names(*dialect, to.bands, from.set.quantity, input, known.notes));
     maker.add(to, averages_of(from, options, known.notes));
-    known.bands += to.bands.count();
     spectra.push_back(std::move(to));
   }
-  known.quantity = source->spectra().front().set.quantity;
+  known.bands = spectra.front().bands.count();
+  known.quantity = spectra.front().from->set.quantity;
+  if (spectra.size() > 1) {
+    known.notes.push_back(fmt::format("both are converted: {} and {}", spectra[0].from->set.description(),
+                                      spectra[1].from->set.description()));
+  }
 
   io::ConvertJob job(*source, std::move(maker).take(), options, setup.kernels);
   SPECTILE_TRY(check_names(job.channels(), input));

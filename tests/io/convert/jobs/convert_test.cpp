@@ -110,9 +110,12 @@ TEST_F(ConvertImages, HoldReflectanceAndEmissionTogether) {
   EXPECT_TRUE(got.planes.at("Z") == picture.planes.at("Z"));
   EXPECT_EQ(text("emissiveUnits"), "W.m^-2");
   EXPECT_EQ(text("polarisationHandedness"), "left");
-  EXPECT_EQ(report.bands, 4U);
-  EXPECT_THAT(report.notes, ElementsAre(HasSubstr("left out: 1 band of emission, layer \"fog\""),
-                                        "left out: 2 channels of S2, whose wavelengths are not those of S0"));
+  EXPECT_EQ(report.bands, 2U);
+  EXPECT_THAT(
+      report.notes,
+      ElementsAre(HasSubstr("left out: 1 band of emission, layer \"fog\""),
+                  "left out: 2 channels of S2, whose wavelengths are not those of S0",
+                  "both are converted: 2 bands of reflectance with re-radiation and 2 bands of emission"));
   // One of them, when it is asked for.
   ConvertImageOptions options;
   options.quantity = Quantity::kReflectance;
