@@ -24,6 +24,7 @@
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/lanes/wavelengths.hpp>
+#include <spectile/output_file.hpp>
 #include <spectile/pixel_window.hpp>
 #include <spectile/plan/plan.hpp>
 #include <spectile/radiometry/directions.hpp>

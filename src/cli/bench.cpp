@@ -2,11 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <spectile/bench/benchmark.hpp>
-#include <system_error>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/options/common_options.hpp"
@@ -141,41 +138,6 @@ int print_stress(const BenchmarkReport& r) {
   return beyond;
 }
 
-int cannot_write(const std::string& path, int error) {
-  print_error("spectile: cannot write {}: {}\n", path, std::generic_category().message(error));
-  return error == ENOENT || error == ENOTDIR || error == EISDIR ? kBadInput : kNoRoom;
-}
-
-/// The name that a file has until it is whole.
-std::string temporary_path(const std::string& path) {
-  return path + ".part";
-}
-
-/// Checks that a file can be created there, before minutes of measurement.
-int check_writable(const std::string& path) {
-  if (path.empty()) return kOk;
-  if (std::filesystem::is_directory(path)) return cannot_write(path, EISDIR);
-  std::FILE* const file = std::fopen(temporary_path(path).c_str(), "wb");
-  if (file == nullptr) return cannot_write(path, errno);
-  static_cast<void>(std::fclose(file));
-  std::remove(temporary_path(path).c_str());
-  return kOk;
-}
-
-/// Whole or not at all.
-int write_file(const std::string& path, const std::string& text) {
-  if (path.empty()) return kOk;
-  std::FILE* const file = std::fopen(temporary_path(path).c_str(), "wb");
-  if (file == nullptr) return cannot_write(path, errno);
-  bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const int first = errno;
-  good = std::fclose(file) == 0 && good;
-  if (good && std::rename(temporary_path(path).c_str(), path.c_str()) == 0) return kOk;
-  const int error = good || first == 0 ? errno : first;
-  std::remove(temporary_path(path).c_str());
-  return cannot_write(path, error);
-}
-
 /// Throws: Stop.
 BenchmarkOptions make_options(const BenchArguments& a) {
   BenchmarkOptions out;
@@ -215,18 +177,18 @@ std::string make_plot(const BenchmarkReport& r) {
 }
 
 int run_bench(const BenchArguments& a) {
-  check_files({{a.report, "the report (--report)"}, {a.plot, "the plot (--plot)"}},
-              named_files(a.reflectances, kReflectancesRole));
+  check_outputs({{a.report, "the report (--report)"}, {a.plot, "the plot (--plot)"}},
+                named_files(a.reflectances, kReflectancesRole));
   catch_signals();
   BenchmarkOptions options = make_options(a);
-  for (const std::string& path : {a.report, a.plot}) {
-    if (const int bad = check_writable(path); bad != kOk) return bad;
+  if (!a.plot.empty() && (a.stress_only || !a.only.empty())) {
+    return complain_usage("--plot draws methods, which neither --only nor --stress-only measures");
   }
   auto result = run_benchmark(options);
   options.progress = nullptr;  // clears the bar
   const BenchmarkReport report = take(std::move(result));
-  if (const int bad = write_file(a.report, benchmark_to_html(report)); bad != kOk) return bad;
-  if (const int bad = write_file(a.plot, make_plot(report)); bad != kOk) return bad;
+  if (!a.report.empty()) take(write_text_file(a.report, benchmark_to_html(report)));
+  if (!a.plot.empty()) take(write_text_file(a.plot, make_plot(report)));
   int beyond = 0;
   if (a.json) {
     print_verbatim(benchmark_to_json(report) + "\n");

@@ -161,7 +161,7 @@ int run_plan(const PlanArguments& a) {
   for (NamedFile& file : named_files(a.reflectances, kReflectancesRole)) read.push_back(std::move(file));
   read = files_among(read);
   for (NamedFile& file : named_files(a.textures, "a texture (--texture)")) read.push_back(std::move(file));
-  check_files({{a.output, kOutputRole}}, read);
+  check_outputs({{a.output, kOutputRole}}, read);
   catch_signals();
   Scene scene;
   PlannerOptions& o = scene.options;

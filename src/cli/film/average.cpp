@@ -54,7 +54,7 @@ int run_average(const AverageArguments& a) {
   if (a.write.pixel) options.stored = options.pixel;
   if (a.weights) options.weights = take(parse_weights(*a.weights));
   check_image_name(a.output);
-  check_files({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
+  check_outputs({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
   catch_signals();
   options.progress = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
   const auto report = average_images(a.inputs, a.output, options);

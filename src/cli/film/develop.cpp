@@ -46,7 +46,7 @@ int run_develop(const DevelopArguments& a) {
   ImageOptions options;
   apply_write_options(a.write, a.common, options);
   check_image_name(a.output);
-  check_files({{a.output, kOutputRole}}, {{a.input, kInputRole}});
+  check_outputs({{a.output, kOutputRole}}, {{a.input, kInputRole}});
   catch_signals();
   const LoadedFilm loaded = take(load_film(a.input, a.common.threads));
   std::size_t sensor = 0;

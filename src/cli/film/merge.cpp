@@ -38,7 +38,7 @@ int run_merge(const MergeArguments& a) {
     return complain_usage(fmt::format("{} is named twice, and its samples would count twice", input));
   }
   check_image_name(a.output);
-  check_files({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
+  check_outputs({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
   catch_signals();
   LoadedFilm all = take(load_film(a.inputs[0], a.common.threads));
   for (std::size_t i = 1; i < a.inputs.size(); ++i) {

@@ -179,10 +179,10 @@ int run_simulate(const SimulateArguments& a) {
   check_image_name(a.output);
   check_image_name(a.reference);
   check_image_name(a.checkpoint);
-  check_files({{a.output, kOutputRole},
-               {a.checkpoint, "the checkpoint (--checkpoint)"},
-               {a.reference, "the reference (--reference)"}},
-              {{file_of_bands(a.bands.value_or("")), kBandsRole}});
+  check_outputs({{a.output, kOutputRole},
+                 {a.checkpoint, "the checkpoint (--checkpoint)"},
+                 {a.reference, "the reference (--reference)"}},
+                {{file_of_bands(a.bands.value_or("")), kBandsRole}});
   const auto start = std::chrono::steady_clock::now();
   const FilmOptions o = film_options(a);
   const ProceduralScene scene = take_usage(ProceduralScene::named(a.scene));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <spectile/output_file.hpp>
 #include <spectile/spectra/bands.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/spectra/spectrum_table.hpp>
@@ -106,6 +107,13 @@ void check_files(const std::vector<NamedFile>& written, const std::vector<NamedF
     if (const auto [it, added] = taken.emplace(id, &file); !added) {
       throw Stop(complain_usage(sentence(file, *it->second)));
     }
+  }
+}
+
+void check_outputs(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read) {
+  check_files(written, read);
+  for (const NamedFile& file : written) {
+    if (!file.path.empty()) take(check_writable(file.path));
   }
 }
 

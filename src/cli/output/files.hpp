@@ -33,6 +33,9 @@ std::string file_of_bands(const std::string& bands);
 /// leads to. Throws: Stop.
 void check_files(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read);
 
+/// The same, and refuses a written file that cannot be written, before there is work to lose. Throws: Stop.
+void check_outputs(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read);
+
 /// True for a name that ends as image files do, OpenEXR's own endings among them.
 bool is_image_name(const std::string& path);
 /// Refuses the name of an image in another format, unless it is a folder. Throws: Stop.

@@ -48,7 +48,6 @@ struct SpectralChannel {
   double from_nm = 0;        ///< kReradiating: where the light is absorbed
   double lower_nm = 0;       ///< edges, where the name has both
   double upper_nm = 0;
-  int stokes = 0;           ///< kPolarised: the component, 1 to 3
   bool lower_edge = false;  ///< the band ends where the next one starts
   std::string prefix;       ///< layer, view or both, without the last point; empty: none
   const Dialect* dialect = nullptr;

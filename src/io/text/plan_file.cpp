@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <set>
 #include <spectile/image/plan_file.hpp>
+#include <spectile/output_file.hpp>
 
-#include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
 #include "src/io/text/plan_flaw.hpp"
 #include "src/io/text/spectrum_text.hpp"
@@ -93,10 +93,7 @@ Result<void> save_plan(const Plan& plan, const std::string& path) {
   if (const std::string what = io::plan_flaw(plan); !what.empty()) {
     return make_error(ErrorCode::kBadArgument, "{}: not written: {}", path, what);
   }
-  const std::string text = plan_to_json(plan);
-  SPECTILE_ASSIGN(auto file, io::AtomicFile::create(path));
-  SPECTILE_TRY(file.write_at(text.data(), text.size(), 0));
-  return file.commit();
+  return write_text_file(path, plan_to_json(plan));
 }
 
 }  // namespace spectile
