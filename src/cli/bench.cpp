@@ -177,7 +177,7 @@ int write_file(const std::string& path, const std::string& text) {
 }
 
 /// Throws: Stop.
-BenchmarkOptions make_options(const BenchArguments& a) {
+BenchmarkOptions make_options(const BenchArguments& a, std::vector<std::string>& notes) {
   BenchmarkOptions out;
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
@@ -191,9 +191,7 @@ BenchmarkOptions make_options(const BenchArguments& a) {
   for (const std::string& file : a.reflectances) {
     const SpectrumTable some = take(find_reflectances(file));
     out.reflectances.insert(out.reflectances.end(), some.spectra.begin(), some.spectra.end());
-    if (!a.quiet && !a.json) {
-      for (const std::string& note : some.notes) print("note: {}\n", note);
-    }
+    notes.insert(notes.end(), some.notes.begin(), some.notes.end());
   }
   const bool show = !a.quiet && !a.json;
   out.progress = [bar = progress_bar("bench", show)](const std::string&, double done) {
@@ -218,7 +216,11 @@ int run_bench(const BenchArguments& a) {
   check_files({{a.report, "the report (--report)"}, {a.plot, "the plot (--plot)"}},
               named_files(a.reflectances, kReflectancesRole));
   catch_signals();
-  BenchmarkOptions options = make_options(a);
+  std::vector<std::string> notes;
+  BenchmarkOptions options = make_options(a, notes);
+  if (!a.quiet && !a.json) {
+    for (const std::string& note : notes) print("note: {}\n", note);
+  }
   for (const std::string& path : {a.report, a.plot}) {
     if (const int bad = check_writable(path); bad != kOk) return bad;
   }
@@ -229,7 +231,9 @@ int run_bench(const BenchArguments& a) {
   if (const int bad = write_file(a.plot, make_plot(report)); bad != kOk) return bad;
   int beyond = 0;
   if (a.json) {
-    print_verbatim(benchmark_to_json(report) + "\n");
+    auto json = nlohmann::ordered_json::parse(benchmark_to_json(report));
+    json["notes"] = notes;
+    print_verbatim(json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     for (const StressResult& s : report.stress) beyond += s.beyond > 0 ? 1 : 0;
   } else {
     print_machine(report);

@@ -63,6 +63,7 @@ Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choic
     out.names.push_back(channel.name);
   }
   out.mapped = choice.map;
+  note_other_parts(input, {out.part}, notes);
   out.quantity = quantity.value_or(Quantity::kIlluminant);
   if (!quantity)
     notes.push_back("mapped channels are taken for light; --quantity reflectance states the other");
@@ -220,6 +221,16 @@ Result<std::optional<SpectralSet>> choose_spectra(const ExrInput& input, const C
   for (const SpectralSet& set : all) {
     if (set.names != chosen.names || set.part != chosen.part) rest.push_back(set);
   }
+  if (!chosen.read.empty() && chosen.read.front().lower_edge) {
+    notes.push_back(
+        fmt::format("{}'s numbers are lower edges: a band ends where the next one starts, the "
+                    "last one is as wide as the one before",
+                    chosen.dialect->name));
+  }
+  // Parts with spectra are named by what they hold.
+  std::vector<int> named = {chosen.part};
+  for (const SpectralSet& set : rest) named.push_back(set.part);
+  note_other_parts(input, named, notes);
   if (!rest.empty()) {
     notes.push_back(
         fmt::format("left out: {} (see --layer, --view, --part, --quantity)", list(rest, described)));
@@ -256,13 +267,29 @@ std::string part_label(const ExrInput& input, int part) {
   return input.header(part).text("name").value_or(std::to_string(part));
 }
 
+void note_other_parts(const ExrInput& input, const std::vector<int>& read, std::vector<std::string>& notes) {
+  constexpr int kShown = 8;
+  std::string names;
+  int others = 0;
+  for (int part = 0; part < input.parts(); ++part) {
+    if (std::find(read.begin(), read.end(), part) != read.end()) continue;
+    if (++others <= kShown) names += fmt::format("{}\"{}\"", others > 1 ? ", " : "", part_label(input, part));
+  }
+  if (others == 0) return;
+  if (others > kShown) names += fmt::format(" and {} more", others - kShown);
+  notes.push_back(others == 1 ? fmt::format("1 other part of the file is left out: {}", names)
+                              : fmt::format("{} other parts of the file are left out: {}", others, names));
+}
+
 Result<std::optional<int>> chosen_part(const ExrInput& input, const std::string& part) {
   if (part.empty()) return std::optional<int>();
   std::string there;
   for (int i = 0; i < input.parts(); ++i) {
     if (input.header(i).deep()) continue;
     if (part_label(input, i) == part || std::to_string(i) == part) return std::optional(i);
-    there += fmt::format("{}{} \"{}\"", there.empty() ? "" : ", ", i, part_label(input, i));
+    const std::string label = part_label(input, i);
+    there += fmt::format("{}{}", there.empty() ? "" : ", ", i);
+    if (label != std::to_string(i)) there += fmt::format(" \"{}\"", label);
   }
   return make_error(ErrorCode::kBadFile, "{}: has no part \"{}\"; it has {}", input.path(), part, there);
 }

@@ -68,4 +68,7 @@ std::string asked_for(const ChannelChoice& choice);
 /// "beauty", or the number of a part without a name.
 std::string part_label(const ExrInput& input, int part);
 
+/// Appends a note that names the parts of which nothing is read, where there are some.
+void note_other_parts(const ExrInput& input, const std::vector<int>& read, std::vector<std::string>& notes);
+
 }  // namespace spectile::io

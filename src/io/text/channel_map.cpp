@@ -1,12 +1,12 @@
 // load_channel_map: channels and their wavelengths, from a small table.
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <spectile/image/channel_map.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/io/text/text_file.hpp"
 
 namespace spectile {
 namespace {
@@ -41,19 +41,15 @@ std::optional<double> wavelength(std::string_view text) {
 }  // namespace
 
 Result<std::vector<MappedChannel>> load_channel_map(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return make_error(ErrorCode::kBadFile, "{}: cannot read", path);
+  SPECTILE_ASSIGN(const io::TextFile file, io::read_text_file(path));
+  if (file.text->size() > kMaxMapBytes)
+    return make_error(ErrorCode::kBadFile, "{}: is too large for a channel map", path);
   std::vector<MappedChannel> out;
   std::set<std::string, std::less<>> names;
-  std::string line;
   std::size_t number = 0;
-  std::size_t bytes = 0;
   std::size_t edges = 0;
-  while (std::getline(file, line)) {
+  for (const std::string_view line : file.lines) {
     ++number;
-    bytes += line.size() + 1;
-    if (bytes > kMaxMapBytes)
-      return make_error(ErrorCode::kBadFile, "{}: is too large for a channel map", path);
     const std::string_view text = trimmed(line);
     if (text.empty() || text.starts_with('#')) continue;
     const auto fields = fields_of(text);
@@ -75,7 +71,10 @@ Result<std::vector<MappedChannel>> load_channel_map(const std::string& path) {
     const double centre = (values.front() + values.back()) / 2;
     out.push_back({std::string(fields[0]), {values.front(), centre, values.back()}});
   }
-  if (out.empty()) return make_error(ErrorCode::kBadFile, "{}: names no channel", path);
+  if (out.empty())
+    return make_error(
+        ErrorCode::kBadFile,
+        "{}: names no channel; a channel map has lines NAME,WAVELENGTH or NAME,LOWER,UPPER (nm)", path);
   if (edges != 0 && edges != out.size()) {
     return make_error(ErrorCode::kBadFile, "{}: holds wavelengths and edges; give one or the other for all",
                       path);

@@ -43,6 +43,11 @@ Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path)
 
 }  // namespace
 
+bool states_color_space(const PartHeader& header) {
+  const std::string id = header.text("colorInteropID").value_or("");
+  return (!id.empty() && id != "unknown") || header.chromaticities().has_value();
+}
+
 Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& path) {
   const std::string id = header.text("colorInteropID").value_or("");
   if (!id.empty() && id != "unknown") return from_interop_id(id, path);
@@ -74,8 +79,7 @@ Result<RgbSpace> input_space_of(const PartHeader& header, const std::string& pat
       notes.emplace_back("input space srgb is taken as linear Rec.709 (lin_rec709)");
     return *stated;
   }
-  const std::string id = header.text("colorInteropID").value_or("");
-  if ((id.empty() || id == "unknown") && !header.chromaticities()) notes.emplace_back(kAssumedSpaceNote);
+  if (!states_color_space(header)) notes.emplace_back(kAssumedSpaceNote);
   return color_space_of(header, path);
 }
 

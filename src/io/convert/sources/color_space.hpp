@@ -12,6 +12,9 @@
 
 namespace spectile::io {
 
+/// True where the file says what its RGB mean.
+bool states_color_space(const PartHeader& header);
+
 /// The space that colorInteropID names, else the one of the chromaticities attribute, else linear Rec.709.
 /// Errors: kBadFile for a colorInteropID that is not linear, is not a colour or is unknown, and for
 /// chromaticities that span no triangle. Source of the names: Color Interop Forum, Color Space Encodings for

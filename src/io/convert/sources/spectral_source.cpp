@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "src/base/errors.hpp"
+#include "src/io/channels/color_channels.hpp"
 #include "src/io/channels/plan_attribute.hpp"
 #include "src/io/channels/spectral_layout.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
@@ -25,11 +26,11 @@ Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& 
       return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
                         path);
     }
+    const std::string colors = color_sets(input).empty() ? "" : "; upsample makes spectra of its colours";
     return make_error(ErrorCode::kBadFile,
-                      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
-                      "map (--channels) "
-                      "says which wavelengths other names stand for",
-                      path);
+                      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm){}; a channel "
+                      "map (--channels) says which wavelengths other names stand for",
+                      path, colors);
   }
   source->part_ = set->part;
   source->set_ = *std::move(set);
