@@ -75,7 +75,7 @@ TEST_F(TableGuesses, OfLightsAreSaidByEveryCommand) {
       {"cm^-1",
        wavenumbers(),
        {"wavelengths in cm^-1, as its heading says", "values are taken as they are, not as per cm^-1"}},
-      {"percent", rows(1, 100, "wavelength,power (%)\n"), {"values in percent, as its heading says"}},
+      {"percent", rows(1, 100, "wavelength,power (%)\n"), {"values in percent, as the file says"}},
       {"missing sample", rows(1, 1) + "710,\n720,0.5\n", {"1 missing sample, left out"}},
       {"marked sample",
        rows(1, 1) + "710,-1.23e34\n720,0.5\n",
@@ -113,7 +113,7 @@ TEST_F(TableGuesses, AreSaidWhereASpectrumIsShown) {
   for (const auto& [text, words] :
        {std::pair{rows(1e-3, 1, "wavelength (um),power\n"), "wavelengths in um, as its heading says"},
         {rows(1e-3, 1), "wavelengths taken as um, by their numbers"},
-        {rows(1, 100, "wavelength,reflectance (%)\n"), "values in percent, as its heading says"},
+        {rows(1, 100, "wavelength,reflectance (%)\n"), "values in percent, as the file says"},
         {rows(1, 1) + "710,\n720,0.5\n", "1 missing sample, left out"}}) {
     expect_said("spectra", {"spectra", write(text)}, {words});
   }
@@ -125,7 +125,7 @@ TEST_F(TableGuesses, OfReflectancesAreSaidByEveryCommand) {
        rows(1e-3, 1, "wavelength (um),a\n"),
        {"wavelengths in um, as its heading says"}},
       {"um, by the numbers", rows(1e-3, 1), {"wavelengths taken as um, by their numbers"}},
-      {"percent", rows(1, 100, "wavelength,reflectance (%)\n"), {"values in percent, as its heading says"}},
+      {"percent", rows(1, 100, "wavelength,reflectance (%)\n"), {"values in percent, as the file says"}},
       {"missing sample", rows(1, 1) + "710,\n720,0.5\n", {"1 missing sample, left out"}},
       {"decimal commas", decimal_commas(), {"numbers have decimal commas"}},
       {"rows",
