@@ -139,7 +139,7 @@ int print_stress(const BenchmarkReport& r) {
 }
 
 /// Throws: Stop.
-BenchmarkOptions make_options(const BenchArguments& a) {
+BenchmarkOptions make_options(const BenchArguments& a, std::vector<std::string>& notes) {
   BenchmarkOptions out;
   out.quick = a.quick;
   out.stress = a.stress || a.stress_only;
@@ -153,9 +153,7 @@ BenchmarkOptions make_options(const BenchArguments& a) {
   for (const std::string& file : a.reflectances) {
     const SpectrumTable some = take(find_reflectances(file));
     out.reflectances.insert(out.reflectances.end(), some.spectra.begin(), some.spectra.end());
-    if (!a.quiet && !a.json) {
-      for (const std::string& note : some.notes) print("note: {}\n", note);
-    }
+    notes.insert(notes.end(), some.notes.begin(), some.notes.end());
   }
   const bool show = !a.quiet && !a.json;
   out.progress = [bar = progress_bar("bench", show)](const std::string&, double done) {
@@ -180,9 +178,13 @@ int run_bench(const BenchArguments& a) {
   check_outputs({{a.report, "the report (--report)"}, {a.plot, "the plot (--plot)"}},
                 named_files(a.reflectances, kReflectancesRole));
   catch_signals();
-  BenchmarkOptions options = make_options(a);
+  std::vector<std::string> notes;
+  BenchmarkOptions options = make_options(a, notes);
   if (!a.plot.empty() && (a.stress_only || !a.only.empty())) {
     return complain_usage("--plot draws methods, which neither --only nor --stress-only measures");
+  }
+  if (!a.quiet && !a.json) {
+    for (const std::string& note : notes) print("note: {}\n", note);
   }
   auto result = run_benchmark(options);
   options.progress = nullptr;  // clears the bar
@@ -191,7 +193,9 @@ int run_bench(const BenchArguments& a) {
   if (!a.plot.empty()) take(write_text_file(a.plot, make_plot(report)));
   int beyond = 0;
   if (a.json) {
-    print_verbatim(benchmark_to_json(report) + "\n");
+    auto json = nlohmann::ordered_json::parse(benchmark_to_json(report));
+    json["notes"] = notes;
+    print_verbatim(json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     for (const StressResult& s : report.stress) beyond += s.beyond > 0 ? 1 : 0;
   } else {
     print_machine(report);

@@ -41,8 +41,9 @@ struct PlanArguments {
 /// Input of the planner, and its description.
 struct Scene {
   PlannerOptions options;
-  std::string from;                ///< "24 reflectances and 128 colours of 1 texture"
-  std::vector<std::string> notes;  ///< on textures and files of spectra
+  std::string from;                   ///< "24 reflectances and 128 colours of 1 texture"
+  std::vector<std::string> notes;     ///< on files of spectra
+  std::vector<std::string> textures;  ///< notes on textures
 };
 
 /// Throws: Stop.
@@ -97,7 +98,7 @@ void add_textures(const PlanArguments& a, Scene& scene) {
     options.progress = nullptr;  // clears the bar
     const std::vector<Spectrum> colors = take(std::move(result));
     out.insert(out.end(), colors.begin(), colors.end());
-    scene.notes.insert(scene.notes.end(), notes.begin(), notes.end());
+    scene.textures.insert(scene.textures.end(), notes.begin(), notes.end());
   }
 }
 
@@ -134,6 +135,7 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
   std::string list;
   for (const double nm : plan.wavelengths_nm) list += fmt::format(" {:.1f}", nm);
   print(" {} nm\n", list);
+  Notes().print(scene.textures);
   if (plan.report.errors.empty()) {
     print("  no cross-validated error, as there was no cross-validation\n");
     return;
@@ -187,7 +189,9 @@ int run_plan(const PlanArguments& a) {
   take(save_plan(*plan, a.output));
   if (a.common.json) {
     auto json = nlohmann::ordered_json::parse(plan_to_json(*plan));
-    if (!scene.notes.empty()) json["notes"] = scene.notes;
+    std::vector<std::string> notes = scene.notes;
+    notes.insert(notes.end(), scene.textures.begin(), scene.textures.end());
+    if (!notes.empty()) json["notes"] = notes;
     print_verbatim(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else if (!a.common.quiet) {
     print_report(*plan, scene, seconds.count(), a.output);

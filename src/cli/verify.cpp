@@ -67,6 +67,7 @@ void add_verify(const Command& app, int& exit) {
       app, "verify", "Compare kernels, scalar reference and double oracle on every pixel", run_verify, exit);
   command.positional("IN", a->inputs, "RGB or spectral OpenEXR images").required();
   add_method_options(command, a->method);
+  add_alpha_option(command, a->method);
   add_common(command, a->common, "spectile verify wood.exr --method sigmoid\n" + kSpectrumHelp);
 }
 

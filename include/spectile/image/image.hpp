@@ -130,7 +130,9 @@ struct MethodOptions : ImageOptions {
   /// Of the input, where it has alpha. It matters to methods whose spectrum of half a colour is not half of
   /// its spectrum, the sigmoid's reflectances: their premultiplied spectra are alpha times the spectra of the
   /// straight colours. Colours of alpha 0, and of 1 and more, are made into spectra as they are.
-  AlphaMeaning alpha = AlphaMeaning::kPremultiplied;
+  /// Nothing: premultiplied, which is noted where it matters.
+  std::optional<AlphaMeaning> alpha = {};
+  AlphaMeaning alpha_meaning() const noexcept { return alpha.value_or(AlphaMeaning::kPremultiplied); }
 };
 
 /// Contents of the output of upsample_image().

@@ -19,7 +19,7 @@ struct MethodArguments {
   std::string input_space;
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;
-  AlphaMeaning alpha = AlphaMeaning::kPremultiplied;
+  std::optional<AlphaMeaning> alpha;
   ChannelArguments channels;
   SpectrumArguments spectra;  ///< how --white, and a command's own illuminant, are read
 };

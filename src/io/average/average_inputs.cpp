@@ -7,6 +7,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/average/same_meaning.hpp"
+#include "src/io/convert/sources/color_space.hpp"
 
 namespace spectile::io {
 namespace {
@@ -108,6 +109,9 @@ Result<void> AverageInputs::compare(const PartHeader& h, const std::string& path
     if (channel->type == SampleType::kFloat) plane.type = SampleType::kFloat;
   }
   if (const auto difference = difference_of_meaning(h, header_, first)) return differ("{}", *difference);
+  if (states_color_space(h) != states_color_space(header_) && space_assumed_of_.empty()) {
+    space_assumed_of_ = states_color_space(h) ? paths_[0] : path;
+  }
   return {};
 }
 

@@ -33,6 +33,8 @@ class AverageInputs {
   PixelWindow window(std::size_t input) const;
   /// True if not all images have the same.
   bool crops() const noexcept { return crops_; }
+  /// An image whose colour space is assumed, though that of another is stated; empty for none.
+  const std::string& space_assumed_of() const noexcept { return space_assumed_of_; }
   /// The channels, each in the widest type that an image has it in.
   const std::vector<PlaneSpec>& planes() const noexcept { return planes_; }
   /// Lines that are decoded at once, of the image where they are most.
@@ -60,6 +62,7 @@ class AverageInputs {
   std::vector<int> part_;  // of each image
   std::vector<PixelWindow> windows_;
   bool crops_ = false;
+  std::string space_assumed_of_;
   PartHeader header_;
   std::vector<PlaneSpec> planes_;
   int chunk_lines_ = 1;

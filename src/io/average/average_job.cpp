@@ -130,6 +130,10 @@ std::vector<std::string> AverageJob::notes() const {
                               kept.size() == 1 ? "names" : "name", kept.size() == 1 ? "is" : "are",
                               kept.size() == 1 ? "it is that" : "they are those", inputs_.path(read_[0])));
   }
+  if (!inputs_.space_assumed_of().empty()) {
+    out.push_back(
+        fmt::format("{} names no colour space; that of the others is assumed", inputs_.space_assumed_of()));
+  }
   if (!inputs_.crops()) return out;
   const PixelWindow& all = inputs_.header().data_window();
   out.push_back(

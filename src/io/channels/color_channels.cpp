@@ -75,9 +75,10 @@ std::string listed(const ExrInput& input, const std::vector<ColorChannels>& all)
   return out;
 }
 
+/// True for names that are no plain R, G, B, and for those of a layer without a name.
 bool is_spelled_otherwise(const ColorChannels& c) {
   const std::string plain = c.names[0].substr(c.prefix.size());
-  return c.model == ColorModel::kRgb && plain != "R";
+  return c.model == ColorModel::kRgb && (plain != "R" || c.prefix == ".");
 }
 
 }  // namespace
@@ -177,6 +178,16 @@ Result<ColorChannels> choose_colors(const ExrInput& input, const ChannelChoice& 
   }
   if (chosen.model == ColorModel::kXyz) {
     notes.push_back(fmt::format("channels {} are taken for CIE XYZ under D65", joined_names(chosen)));
+  }
+  const PartHeader& header = input.header(chosen.part);
+  const bool chroma =
+      header.find(chosen.prefix + "RY") != nullptr && header.find(chosen.prefix + "BY") != nullptr;
+  if (chosen.model == ColorModel::kLuminance && !chroma) {
+    notes.push_back(fmt::format("channel {} alone is taken for grey", chosen.names[0]));
+  }
+  if (header.find(chosen.names[0])->type == SampleType::kUint32) {
+    notes.push_back(
+        fmt::format("channels {} are integers: 1 is white, as of other samples", joined_names(chosen)));
   }
   return chosen;
 }

@@ -47,6 +47,9 @@ struct SpectralSet {
   std::string description() const;
 };
 
+/// "reflectance" or "emission".
+const char* quantity_noun(Quantity quantity);
+
 /// All sets of a file's flat parts, in the order of parts, layers and views.
 std::vector<SpectralSet> spectral_sets(const ExrInput& input);
 
@@ -80,5 +83,8 @@ std::string asked_for(const ChannelChoice& choice);
 
 /// "beauty", or the number of a part without a name.
 std::string part_label(const ExrInput& input, int part);
+
+/// Appends a note that names the parts of which nothing is read, where there are some.
+void note_other_parts(const ExrInput& input, const std::vector<int>& read, std::vector<std::string>& notes);
 
 }  // namespace spectile::io

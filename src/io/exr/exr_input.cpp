@@ -50,6 +50,7 @@ Result<void> check_is_exr(const std::string& path) {
   if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
   // The magic number of OpenEXR files, little-endian 20000630.
   constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
+  if (got == 0) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file: it is empty", path);
   if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
   return sizes;
 }

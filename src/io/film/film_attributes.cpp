@@ -171,7 +171,9 @@ TextAttributes film_attributes(const FilmAccess::State& s, const std::string& pr
 
 Result<FilmDescription> film_of(const PartHeader& header, const std::string& path) {
   const auto version = header.text(kFilmAttribute);
-  if (!version) return make_error(ErrorCode::kBadFile, "{}: not a partial film", path);
+  if (!version)
+    return make_error(ErrorCode::kBadFile,
+                      "{}: not a partial film, as film simulate writes; film average averages images", path);
   if (*version != kFilmVersion) {
     return make_error(ErrorCode::kBadFile, "{}: a partial film of version \"{}\"; this tool reads {}", path,
                       *version, kFilmVersion);

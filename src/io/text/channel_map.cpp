@@ -76,7 +76,10 @@ Result<std::vector<MappedChannel>> load_channel_map(const std::string& path) {
     edges += fields.size() - 2;
     out.push_back(std::move(channel));
   }
-  if (out.empty()) return make_error(ErrorCode::kBadFile, "{}: names no channel", path);
+  if (out.empty())
+    return make_error(
+        ErrorCode::kBadFile,
+        "{}: names no channel; a channel map has lines NAME,WAVELENGTH or NAME,LOWER,UPPER (nm)", path);
   if (edges != 0 && edges != out.size()) {
     return make_error(ErrorCode::kBadFile, "{}: holds wavelengths and edges; give one or the other for all",
                       path);

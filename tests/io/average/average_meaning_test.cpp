@@ -43,7 +43,7 @@ TEST_F(AverageMeaning, ColourSpacesMustBeTheSame) {
   refused(primaries(kAp1), nothing, "colour space is ");
   refused(text("colorInteropID", "lin_rec2020_scene"), text("colorInteropID", "lin_ap1_scene"),
           "colour space is ");
-  refused(text("oiio:ColorSpace", "Linear"), text("oiio:ColorSpace", "ACEScg"), "oiio:ColorSpace is ");
+  refused(text("oiio:ColorSpace", "Linear"), text("oiio:ColorSpace", "ACEScg"), "colour space is ACEScg");
   refused(text("colorInteropID", "data"), text("colorInteropID", "srgb_rec709_scene"), "colorInteropID is ");
 }
 

@@ -136,7 +136,8 @@ TEST_F(ChannelChoices, PartsAreChosenByNameOrNumber) {
     }
   }
   const ImageReport first = project(in_);
-  EXPECT_THAT(first.notes, ElementsAre(HasSubstr("left out: 31 bands of emission, part \"spectral.right\"")));
+  EXPECT_THAT(first.notes, ElementsAre("1 other part of the file is left out: \"beauty\"",
+                                       HasSubstr("left out: 31 bands of emission, part \"spectral.right\"")));
   EXPECT_NEAR(luminance_at_origin(out_), 0.5, 1e-6);
   for (const char* part : {"spectral.right", "2"}) {
     ProjectImageOptions options = xyz();

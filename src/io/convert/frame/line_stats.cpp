@@ -38,6 +38,7 @@ void LineStats::add(const LineStats& later) {
   outside.add(later.outside);
   over_one += later.over_one;
   clamped += later.clamped;
+  divided_by_alpha += later.divided_by_alpha;
   above_alpha += later.above_alpha;
   masked += later.masked;
   black += later.black;

@@ -42,6 +42,7 @@ struct LineStats {
   PixelCount outside;  // colours that the method cannot make
   std::uint64_t over_one = 0;
   std::uint64_t clamped = 0;
+  std::uint64_t divided_by_alpha = 0;
   std::uint64_t above_alpha = 0;  // colours, premultiplied, that no reflectance has
   std::uint64_t masked = 0;
   std::uint64_t black = 0;     // masked ones too

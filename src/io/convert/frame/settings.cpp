@@ -136,7 +136,7 @@ class Line {
     add("negative", enum_name(kNegatives, options.negative));
     add("out-of-gamut",
         options.out_of_gamut ? enum_name(kGamutPolicies, *options.out_of_gamut) : "by negative");
-    add("alpha", to_string(options.alpha));
+    add("alpha", to_string(options.alpha_meaning()));
     return *this;
   }
 

@@ -148,8 +148,8 @@ Result<ImageInfo> inspect(const std::string& path, std::optional<std::array<int,
   }
   if (pixel &&
       ((*pixel)[0] < 0 || (*pixel)[0] >= info.width || (*pixel)[1] < 0 || (*pixel)[1] >= info.height)) {
-    return make_error(ErrorCode::kBadArgument, "pixel {},{} lies outside the image of {} x {}", (*pixel)[0],
-                      (*pixel)[1], info.width, info.height);
+    return make_error(ErrorCode::kBadArgument, "{}: pixel {},{} lies outside the image of {} x {}", path,
+                      (*pixel)[0], (*pixel)[1], info.width, info.height);
   }
   const std::vector<io::PlaneSpec> planes = planes_of(header, set);
   for (const io::PlaneSpec& plane : planes) {

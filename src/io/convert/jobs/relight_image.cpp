@@ -94,9 +94,11 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
+  const auto note_alpha = [&options](const io::LineStats& found, std::vector<std::string>& notes) {
+    io::note_alpha(found, !options.alpha, notes);
+  };
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
-  return io::run_image_job(
-      {job, output, std::move(spec), options, refusal, std::move(known), io::note_above_alpha});
+  return io::run_image_job({job, output, std::move(spec), options, refusal, std::move(known), note_alpha});
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   UpsampleJob job(*source, mask, upsampler, rows, options, setup.kernels);
   const bool coefficients = options.store == Store::kCoefficients;
   auto texts = io::method_attributes(upsampler, options, coefficients);
-  if (source->alpha()) io::add_alpha_attribute(texts, options.alpha);
+  if (source->alpha()) io::add_alpha_attribute(texts, options.alpha_meaning());
   if (!coefficients) io::add_layout_attributes(texts, options.quantity, options.bands);
   io::ImageSpec spec = io::conversion_spec(source->header(), job.channels(), std::move(texts), options,
                                            settings_text(options));
@@ -255,9 +255,15 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
+  const auto note_alpha = [&options](const io::LineStats& found, std::vector<std::string>& notes) {
+    io::note_alpha(found, !options.alpha, notes);
+  };
   const auto refusal = [&](const LineStats& found) { return job.stage().refusal(input, found); };
   SPECTILE_ASSIGN(auto report, io::run_image_job({job, output, std::move(spec), options, refusal,
-                                                  std::move(known), io::note_above_alpha}));
+                                                  std::move(known), note_alpha}));
+  if (options.masking == Masking::kAlpha && !source->alpha()) {
+    report.notes.emplace_back("there is no alpha, so that --mask alpha masks nothing");
+  }
   if (options.masking == Masking::kAlpha && job.masked_colored() > 0) {
     report.notes.push_back(fmt::format(
         "{} pixel{} of alpha 0 with a colour: they become black; without --mask alpha they keep it",

@@ -1,5 +1,6 @@
 // verify_image: kernels, scalar reference and double oracle on every pixel of a file.
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include "src/io/convert/sources/spectral_source.hpp"
 #include "src/io/convert/stages/color_stage.hpp"
 #include "src/io/convert/stages/lines.hpp"
+#include "src/io/convert/stages/straight_color.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/reference/oracle/oracle.hpp"
 #include "src/reference/table.hpp"
@@ -107,31 +109,35 @@ Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptio
   return out;
 }
 
-/// Upsampling of one line of RGB, three ways.
+/// Upsampling of one line of RGB, three ways. `scale`: of each pixel's spectrum; may be null.
 Result<void> verify_upsampled(const kernels::KernelTable& kernels, const UpsamplingOracle& oracle,
-                              const float* const rgb[3], std::size_t width, VerifyReport& report) {
+                              const float* const rgb[3], const float* scale, std::size_t width,
+                              VerifyReport& report) {
   const Upsampler& upsampler = oracle.upsampler;
   const std::size_t bands = upsampler.bands().count();
   SPECTILE_ASSIGN(auto memory, FloatBuffer::create(2 * bands * kLanesPerBlock));
   float* const ours = memory.data();
   float* const expected = ours + bands * kLanesPerBlock;
-  const auto run = [&](const kernels::KernelTable& table, const float* const in[3], float* out) {
+  const auto run = [&](const kernels::KernelTable& table, const float* const in[3], const float* scales,
+                       float* out) {
     alignas(64) float c[4][kLanesPerBlock];
     const float* const read[3] = {c[0], c[1], c[2]};
     const rows::Coefficients found = {{c[0], c[1], c[2]}, rows::has_scale(upsampler) ? c[3] : nullptr};
     std::uint64_t unsolved = 0;
     rows::solve(table, upsampler, in, found, &unsolved, kLanesPerBlock);
-    rows::expand_blocks(table, upsampler, read, found.scale, out, 1, false);
+    rows::expand_blocks(table, upsampler, read, scales != nullptr ? scales : found.scale, out, 1, false);
   };
   std::vector<float> samples(bands);
   for (std::size_t at = 0; at < width; at += kLanesPerBlock) {
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
-    run(kernels, in, ours);
-    run(reference::kernel_table, in, expected);
+    const float* const scales = scale != nullptr ? scale + at : nullptr;
+    run(kernels, in, scales, ours);
+    run(reference::kernel_table, in, scales, expected);
     compare(ours, expected, bands * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
-      const auto difference = oracle.difference({in[0][i], in[1][i], in[2][i]}, samples);
+      const double s = scales != nullptr ? static_cast<double>(scales[i]) : 1;
+      const auto difference = oracle.difference({s * in[0][i], s * in[1][i], s * in[2][i]}, samples);
       if (difference) report.max_oracle_difference = std::max(report.max_oracle_difference, *difference);
     }
   }
@@ -208,6 +214,9 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& opti
   SPECTILE_ASSIGN(const auto upsampler, io::upsampler_for(options));
   SPECTILE_ASSIGN(const auto oracle, oracle_of(upsampler, options));
   const io::ColorStage stage(source, upsampler, options, kernels);
+  const io::StraightColor straight(source, upsampler, options, kernels);
+  std::atomic<std::uint64_t> divided = 0;
+  std::atomic<std::uint64_t> above = 0;
   VerifyReport report;
   report.isa = kernels.name;
   report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
@@ -223,12 +232,27 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& opti
           const auto width = static_cast<std::size_t>(source.width());
           const float* const rgb[3] = {color.rows[0], color.rows[1], color.rows[2]};
           io::LineStats stats;
-          stage.line(*strip, line, color, stats);
-          return verify_upsampled(kernels, oracle, rgb, width, found);
+          FloatBuffer scale;
+          stage.load(*strip, line, color);
+          const bool may_be_outside = stage.sanitize(line, color, width, stats).may_be_outside;
+          if (straight.needed()) {
+            SPECTILE_ASSIGN(scale, FloatBuffer::create(color.padded));
+            straight.divide(*strip, line, color.rows, scale.data(), stats);
+            divided += stats.divided_by_alpha;
+            above += stats.above_alpha;
+          }
+          if (may_be_outside) stage.clip_to_gamut(line, color, width, stats);
+          return verify_upsampled(kernels, oracle, rgb, straight.needed() ? scale.data() : nullptr, width,
+                                  found);
         }));
     SPECTILE_TRY(go_on(options, first + lines, source.width(), source.height()));
   }
   report.pixels = static_cast<std::uint64_t>(source.width()) * static_cast<std::uint64_t>(source.height());
+  report.notes = source.notes();
+  io::LineStats of_alpha;
+  of_alpha.divided_by_alpha = divided;
+  of_alpha.above_alpha = above;
+  io::note_alpha(of_alpha, !options.alpha, report.notes);
   return report;
 }
 
@@ -282,9 +306,7 @@ Result<VerifyReport> verify(const std::string& path, const MethodOptions& option
   }
   SPECTILE_ASSIGN(auto rgb,
                   io::RgbSource::open(path, options.channels, threads, options.region, options.input_space));
-  SPECTILE_ASSIGN(auto report, verify_rgb(*rgb, options, *kernels));
-  report.notes = rgb->notes();
-  return report;
+  return verify_rgb(*rgb, options, *kernels);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/channels/spectral_sets.hpp"
 #include "src/io/convert/sources/method_attributes.hpp"
 
 namespace spectile::io {
@@ -35,7 +36,9 @@ Result<std::unique_ptr<CoefficientSource>> CoefficientSource::open(std::unique_p
     ++part;
   if (part == input->parts()) {
     return make_error(ErrorCode::kBadFile,
-                      "{}: holds no coefficients (channels spectile.c0, spectile.c1, spectile.c2)", path);
+                      "{}: holds no coefficients (channels spectile.c0, spectile.c1, spectile.c2), which "
+                      "upsample --store coefficients writes",
+                      path);
   }
   SPECTILE_ASSIGN(auto upsampler, upsampler_of(input->header(part), path));
   std::unique_ptr<CoefficientSource> source(new CoefficientSource);
@@ -76,9 +79,7 @@ Result<void> CoefficientSource::choose_channels() {
     }
     if (passes(channel, notes_)) planes_.push_back({name, channel.type});
   }
-  if (input_->parts() > 1) {
-    notes_.push_back(fmt::format("{} other parts of the file are left out", input_->parts() - 1));
-  }
+  note_other_parts(*input_, {part_}, notes_);
   return {};
 }
 

@@ -1,6 +1,8 @@
 // The RGB space that a file declares, and its way to linear sRGB.
 #include "src/io/convert/sources/color_space.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <spectile/image/image.hpp>
 #include <string_view>
@@ -40,6 +42,27 @@ std::array<double, 2> pair(const std::array<float, 2>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1])};
 }
 
+/// OpenImageIO's name of the space in lower case; empty for its names of linear Rec.709, as which it takes
+/// files without one.
+std::string oiio_name(const PartHeader& header) {
+  std::string name = header.text("oiio:ColorSpace").value_or("");
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with("_scene")) name.resize(name.size() - 6);
+  const bool usual = name == "linear" || name == "scene_linear" || name == "lin_srgb" || name == "lin_rec709";
+  return usual ? "" : name;
+}
+
+Result<RgbSpace> from_oiio_name(const std::string& name, const std::string& path) {
+  // "sRGB" is the encoded space there.
+  const auto space = rgb_space(name);
+  if (space && name != "srgb") return *space;
+  return make_error(ErrorCode::kBadFile,
+                    "{}: oiio:ColorSpace \"{}\" is not a linear colour space that can be converted; "
+                    "--input-space states what it is",
+                    path, name);
+}
+
 Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path) {
   for (const auto& known : kInteropSpaces) {
     if (known.id == id) return rgb_space(known.space);
@@ -54,11 +77,20 @@ Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path)
 
 }  // namespace
 
+bool states_color_space(const PartHeader& header) {
+  const std::string id = header.text("colorInteropID").value_or("");
+  return (!id.empty() && id != "unknown") || header.chromaticities().has_value() ||
+         header.has_attribute("oiio:ColorSpace");
+}
+
 Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& path) {
   const std::string id = header.text("colorInteropID").value_or("");
   if (!id.empty() && id != "unknown") return from_interop_id(id, path);
   const auto declared = header.chromaticities();
-  if (!declared) return RgbSpace{};
+  if (!declared) {
+    const std::string name = oiio_name(header);
+    return name.empty() ? RgbSpace{} : from_oiio_name(name, path);
+  }
   const auto& [red, green, blue, white] = *declared;
   const Chromaticities space = {pair(red), pair(green), pair(blue), pair(white)};
   bool finite = true;
@@ -86,8 +118,7 @@ Result<RgbSpace> input_space_of(const PartHeader& header, const std::string& pat
       notes.emplace_back("input space srgb is taken as linear Rec.709 (lin_rec709)");
     return *stated;
   }
-  const std::string id = header.text("colorInteropID").value_or("");
-  if ((id.empty() || id == "unknown") && !header.chromaticities()) notes.emplace_back(kAssumedSpaceNote);
+  if (!states_color_space(header)) notes.emplace_back(kAssumedSpaceNote);
   return color_space_of(header, path);
 }
 

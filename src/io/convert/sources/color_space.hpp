@@ -12,10 +12,13 @@
 
 namespace spectile::io {
 
-/// The space that colorInteropID names, else the one of the chromaticities attribute, else linear Rec.709.
-/// Errors: kBadFile for a colorInteropID that is not linear, is not a colour or is unknown, and for
-/// chromaticities that span no triangle. Source of the names: Color Interop Forum, Color Space Encodings for
-/// Texture Assets and CG Rendering, 2024.
+/// True where the file says what its RGB mean.
+bool states_color_space(const PartHeader& header);
+
+/// The space that colorInteropID names, else the one of the chromaticities attribute, else oiio:ColorSpace,
+/// else linear Rec.709. Errors: kBadFile for a colorInteropID or oiio:ColorSpace that is not linear, is not a
+/// colour or is unknown, and for chromaticities that span no triangle. Source of the names: Color Interop
+/// Forum, Color Space Encodings for Texture Assets and CG Rendering, 2024.
 Result<RgbSpace> color_space_of(const PartHeader& header, const std::string& path);
 
 /// The space of an image's RGB: the stated one, whatever the file says, else color_space_of(). Adds to

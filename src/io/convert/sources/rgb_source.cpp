@@ -6,6 +6,7 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/channels/spectral_layout.hpp"
+#include "src/io/channels/spectral_sets.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
 
 namespace spectile::io {
@@ -82,9 +83,7 @@ void RgbSource::choose_passing() {
     planes_.push_back({name, channel.type});
     file_names_.push_back(name);
   }
-  if (input_->parts() > 1) {
-    notes_.push_back(fmt::format("{} other parts of the file are left out", input_->parts() - 1));
-  }
+  note_other_parts(*input_, {part_}, notes_);
   if (!other_views_.empty()) {
     notes_.push_back(fmt::format("left out: view {} (see --view)", fmt::join(other_views_, ", ")));
   }

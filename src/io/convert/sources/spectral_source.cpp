@@ -6,6 +6,7 @@
 #include <span>
 
 #include "src/base/errors.hpp"
+#include "src/io/channels/color_channels.hpp"
 #include "src/io/channels/plan_attribute.hpp"
 #include "src/io/channels/spectral_layout.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
@@ -18,11 +19,12 @@ Error no_spectra(const ExrInput& input) {
     return make_error(ErrorCode::kBadFile, "{}: holds coefficients; expanding turns them into spectra",
                       input.path());
   }
-  return make_error(ErrorCode::kBadFile,
-                    "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm); a channel "
-                    "map (--channels) "
-                    "says which wavelengths other names stand for",
-                    input.path());
+  const char* const colors = color_sets(input).empty() ? "" : "; upsample makes spectra of its colours";
+  return make_error(
+      ErrorCode::kBadFile,
+      "{}: has no spectral channels (such as T.500,000000nm or S0.500,000000nm){}; a channel map "
+      "(--channels) says which wavelengths other names stand for",
+      input.path(), colors);
 }
 
 Result<std::unique_ptr<SpectralSource>> SpectralSource::open(const std::string& path,

@@ -10,7 +10,10 @@ namespace spectile::io {
 void add_color_tag(TextAttributes& texts, ColorTarget target) {
   // Names of the Color Interop Forum.
   if (target == ColorTarget::kSrgb) texts.emplace_back("colorInteropID", "lin_rec709_scene");
-  if (target == ColorTarget::kXyz) texts.emplace_back("colorInteropID", "lin_ciexyzd65_scene");
+  if (target != ColorTarget::kXyz) return;
+  texts.emplace_back("colorInteropID", "lin_ciexyzd65_scene");
+  // OpenImageIO before 3.0 knows its own attribute only, and takes files without for linear Rec.709.
+  texts.emplace_back("oiio:ColorSpace", "lin_ciexyzd65_scene");
 }
 
 std::vector<const char*> color_channels(ColorTarget target) {

@@ -19,7 +19,7 @@ constexpr float kRoundedAbove = 1 + 0x1p-9F;
 StraightColor::StraightColor(const RgbSource& source, const Upsampler& upsampler,
                              const MethodOptions& options, const kernels::KernelTable& kernels)
     : kernels_(kernels) {
-  if (options.alpha != AlphaMeaning::kPremultiplied || !source.alpha()) return;
+  if (options.alpha_meaning() != AlphaMeaning::kPremultiplied || !source.alpha()) return;
   if (rows::mixes_bases(upsampler) || rows::has_scale(upsampler)) return;
   plane_ = source.alpha();
   type_ = source.planes()[*plane_].type;
@@ -39,6 +39,7 @@ void StraightColor::divide(const Strip& strip, int line, float* const rgb[3], fl
     for (std::size_t x = 0; x < width; ++x) scale[x] = static_cast<float>(whole[x]);
   }
   std::fill(scale + width, scale + padded, 1.0F);
+  std::uint64_t divided = 0;
   std::uint64_t above = 0;
   for (std::size_t x = 0; x < width; ++x) {
     const float alpha = scale[x];
@@ -46,16 +47,24 @@ void StraightColor::divide(const Strip& strip, int line, float* const rgb[3], fl
     // Not for NaN.
     const bool partly = alpha > 0 && alpha < 1 && most > 0;
     scale[x] = partly ? std::max(alpha, std::min(most, 1.0F)) : 1.0F;
+    divided += partly ? 1 : 0;
     above += partly && most > alpha * kRoundedAbove ? 1 : 0;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     float* const component = rgb[k];
     for (std::size_t x = 0; x < width; ++x) component[x] /= scale[x];
   }
+  stats.divided_by_alpha += divided;
   stats.above_alpha += above;
 }
 
-void note_above_alpha(const LineStats& stats, std::vector<std::string>& notes) {
+void note_alpha(const LineStats& stats, bool assumed, std::vector<std::string>& notes) {
+  if (assumed && stats.divided_by_alpha > 0) {
+    notes.push_back(
+        fmt::format("colour is taken as premultiplied by alpha, which is between 0 and 1 in {} pixel{}; "
+                    "--alpha straight or ignore states another",
+                    stats.divided_by_alpha, stats.divided_by_alpha == 1 ? "" : "s"));
+  }
   if (stats.above_alpha == 0) return;
   notes.push_back(fmt::format(
       "{} pixel{} brighter than alpha, as light is and no reflectance: taken as {} largest component "

@@ -40,7 +40,8 @@ class StraightColor {
   const kernels::KernelTable& kernels_;
 };
 
-/// Appends a note on colours above their alpha, where there are some.
-void note_above_alpha(const LineStats& stats, std::vector<std::string>& notes);
+/// Appends notes on what was made of alpha: that it was `assumed` to be premultiplied, where that mattered,
+/// and on colours above their alpha.
+void note_alpha(const LineStats& stats, bool assumed, std::vector<std::string>& notes);
 
 }  // namespace spectile::io

@@ -196,6 +196,38 @@ TEST_F(ColorSpaces, UnusableOnesAreClearErrors) {
   EXPECT_THAT(report.error().message, testing::HasSubstr("chromaticities"));
 }
 
+/// OpenImageIO's own attribute says it where no other does.
+TEST_F(ColorSpaces, NamesOfOpenImageIoAreRead) {
+  const auto named = [&](const char* name) {
+    test::Picture picture = flat({0.25, 0.5, 0.125});
+    picture.header.insert("oiio:ColorSpace", Imf::StringAttribute(name));
+    return picture;
+  };
+  const std::pair<const char*, const char*> same[] = {{"Linear", "lin_rec709_scene"},
+                                                      {"lin_rec709_scene", "lin_rec709_scene"},
+                                                      {"ACEScg", "lin_ap1_scene"},
+                                                      {"lin_rec2020", "lin_rec2020_scene"},
+                                                      {"lin_ciexyzd65_scene", "lin_ciexyzd65_scene"}};
+  for (const auto& [name, id] : same) {
+    ASSERT_TRUE(convert(with(flat({0.25, 0.5, 0.125}), id), Quantity::kReflectance)) << id;
+    const auto expected = spectrum();
+    const auto report = convert(named(name), Quantity::kReflectance);
+    ASSERT_TRUE(report) << name << report.error().message;
+    EXPECT_THAT(report->notes, testing::Not(testing::Contains(testing::HasSubstr("assumed")))) << name;
+    expect_near(spectrum(), expected, 0);
+  }
+  ASSERT_TRUE(convert(with(named("sRGB"), "lin_ap1_scene"), Quantity::kReflectance)) << "the other one wins";
+  for (const char* name : {"sRGB", "srgb_texture", "g22_rec709", "Rec709", "unheard of"}) {
+    const auto report = convert(named(name), Quantity::kReflectance);
+    if (std::string(name) == "Rec709") {
+      EXPECT_TRUE(report) << "the linear one, as elsewhere";
+      continue;
+    }
+    ASSERT_FALSE(report) << name;
+    EXPECT_THAT(report.error().message, testing::HasSubstr("--input-space")) << name;
+  }
+}
+
 TEST_F(ColorSpaces, HugeFiniteColorsNeverBecomeNonFiniteSpectra) {
   // Within float in the file, beyond it after conversion to sRGB, or times the largest basis value.
   for (const test::Picture& picture :

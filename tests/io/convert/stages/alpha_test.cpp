@@ -31,7 +31,8 @@ class Alpha : public testing::Test {
     up_.method = Method::kSigmoid;
     up_.bands = *Bands::uniform(400, 700, 25);
     up_.pixel = SampleType::kFloat;
-    up_.input_space = RgbSpace();  // stated, so that notes are of alpha only
+    up_.input_space = RgbSpace();  // stated, so that notes are of what is special only
+    up_.alpha = AlphaMeaning::kPremultiplied;
   }
   ~Alpha() override { static_cast<void>(force_isa("")); }
 
