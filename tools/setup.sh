@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libxsimd-dev libtbb-dev libopenexr-dev libimath-dev libdeflate-dev libpugixml-dev libfmt-dev
+  libxsimd-dev libtbb-dev libopenexr-dev libimath-dev libdeflate-dev libpugixml-dev libxxhash-dev libfmt-dev
   libeigen3-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev librapidcheck-dev python3
 )

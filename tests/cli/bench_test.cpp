@@ -174,6 +174,23 @@ TEST(Bench, ReportsThatCannotBeWrittenAreSaid) {
   expect_refused({"--stress-only", "--report", "/sys/out.html"}, 3, "/sys/out.html");
 }
 
+TEST(Bench, NothingToPlotIsSaidBeforeAnyMeasurement) {
+  const test::TempFolder folder;
+  expect_refused({"--only", "add", "--plot", folder / "plot.svg"}, 2, "--plot draws methods");
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Bench, ReportsTouchNoOtherFile) {
+  const test::TempFolder folder;
+  const std::string page = folder / "out.html";
+  test::write_text(page + ".part", "precious");
+  const auto outcome = test::run_tool({"bench", "--quick", "--only", "absolute", "--threads", "1",
+                                       "--cache-only", "--quiet", "--report", page});
+  EXPECT_EQ(outcome.exit, 0) << outcome;
+  EXPECT_EQ(test::file_bytes(page + ".part"), "precious");
+  EXPECT_EQ(folder.names().size(), 2U);
+}
+
 TEST(Bench, InterruptEndsItWithoutOutput) {
   const test::TempFolder folder;
   const std::string page = folder / "out.html";

@@ -62,6 +62,7 @@ LIBRARIES = [
     ("oneTBB", r"(oneapi/)?tbb/", "src/lanes/tiles.cpp"),
     ("OpenEXR", r"(OpenEXR|Imath)/|Imf|Imath", "src/io/exr/* bench/exr_only.cpp"),
     ("libdeflate", r"libdeflate", "src/io/exr/encoders/zip_encoder.cpp"),
+    ("xxHash", r"xxhash\.h", "src/io/film/film_checksum.cpp"),
     ("pugixml", r"pugixml", "src/io/text/spectrum_spdx.cpp"),
     ("Eigen", r"Eigen/", "src/planner/* src/upsampling/quadratic_program.*"),
     ("CLI11", r"CLI/", "src/cli/options/command.cpp"),

@@ -22,6 +22,7 @@ BROKEN_LINES = [
     ("OpenEXR", "src/film/add.cpp", "#include <OpenEXR/ImfHeader.h>"),
     ("OpenEXR", "bench/report/html.cpp", "#include <Imath/half.h>"),
     ("libdeflate", "src/io/exr/strips.cpp", "#include <libdeflate.h>"),
+    ("xxHash", "src/io/film/film_image.cpp", "#include <xxhash.h>"),
     ("pugixml", "src/io/text/spectrum_columns.cpp", "#include <pugixml.hpp>"),
     ("Eigen", "src/upsampling/gamut.cpp", "#include <Eigen/Dense>"),
     ("CLI11", "bench/report/html.cpp", "#include <CLI/CLI.hpp>"),

@@ -30,11 +30,12 @@ Result<FilmFileReport> save_film(const Film& film, const std::string& path, cons
 struct LoadedFilm {
   Film film;
   std::string progress;
+  bool has_checksum = true;  ///< false for a file of a version that saved none: nothing proves it whole
 };
 
-/// Errors: kBadFile for what is no partial film, is damaged, or of a version that is not known;
-/// kNoPermission; kOutOfMemory.
-Result<LoadedFilm> load_film(const std::string& path, int threads = 0);
+/// Errors: kBadFile for what is no partial film, is damaged (also by its checksum), or of a version that is not known;
+/// kNoPermission; kOutOfMemory; kCancelled where `progress` says so.
+Result<LoadedFilm> load_film(const std::string& path, int threads = 0, const ProgressFunction& progress = {});
 
 /// Writes a developed layer as an image, its data window the crop's: R, G, B, or X, Y, Z, or Y, or the
 /// layout's spectral channels (radiance), or "weight", "count", "variance".

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "src/cli/commands.hpp"
@@ -48,7 +49,9 @@ int run_develop(const DevelopArguments& a) {
   check_image_name(a.output);
   check_outputs({{a.output, kOutputRole}}, {{a.input, kInputRole}});
   catch_signals();
-  const LoadedFilm loaded = take(load_film(a.input, a.common.threads));
+  std::vector<std::string> notes;
+  options.progress = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
+  const LoadedFilm loaded = load_film_file(a.input, a.common.threads, notes);
   std::size_t sensor = 0;
   if (a.to == FilmLayer::kSensor) {
     const auto found = sensor_of(loaded.film, a.sensor);
@@ -56,6 +59,7 @@ int run_develop(const DevelopArguments& a) {
     sensor = *found;
   }
   const auto report = write_developed(loaded.film, a.to, sensor, a.output, options);
+  options.progress = nullptr;  // clears the bar
   if (!report) {
     // A plan's bands hold no light's emission values but those that it was made for.
     const Error of_light = with_light(report.error(), a.input, "");
@@ -75,12 +79,14 @@ int run_develop(const DevelopArguments& a) {
                 {"samples", stats.accepted},
                 {"limited_samples", report->clamped_pixels},
                 {"bytes_written", report->bytes_written},
-                {"seconds", report->seconds}});
+                {"seconds", report->seconds},
+                {"notes", notes}});
   } else if (!a.common.quiet) {
     print("{} -> {}: {} x {}, {} of {} samples, {}, {:.2f} s\n", a.input, a.output, report->width,
           report->height, name_of(kLayers, a.to), stats.accepted, size_text(report->bytes_written),
           report->seconds);
     print_clamped(report->clamped_pixels, "value");
+    Notes().print(notes);
   }
   return kOk;
 }

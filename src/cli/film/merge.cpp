@@ -40,12 +40,14 @@ int run_merge(const MergeArguments& a) {
   check_image_name(a.output);
   check_outputs({{a.output, kOutputRole}}, named_files(a.inputs, kInputRole));
   catch_signals();
-  LoadedFilm all = take(load_film(a.inputs[0], a.common.threads));
+  std::vector<std::string> notes;
+  options.progress = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
+  LoadedFilm all = load_film_file(a.inputs[0], a.common.threads, notes);
   for (std::size_t i = 1; i < a.inputs.size(); ++i) {
     if (interrupted()) {
       return complain({ErrorCode::kCancelled, "interrupted; nothing was written"});
     }
-    const LoadedFilm next = take(load_film(a.inputs[i], a.common.threads));
+    const LoadedFilm next = load_film_file(a.inputs[i], a.common.threads, notes);
     if (const auto merged = all.film.merge(next.film); !merged) {
       return complain(
           {merged.error().code == ErrorCode::kBadArgument ? ErrorCode::kBadFile : merged.error().code,
@@ -53,6 +55,7 @@ int run_merge(const MergeArguments& a) {
     }
   }
   const FilmFileReport saved = take(save_film(all.film, a.output, {}, options));
+  options.progress = nullptr;  // clears the bar
   const FilmStats stats = all.film.stats();
   if (a.common.json) {
     print_json({{"inputs", a.inputs},
@@ -60,10 +63,12 @@ int run_merge(const MergeArguments& a) {
                 {"samples", stats.accepted},
                 {"rejected", stats.rejected.total()},
                 {"bytes_written", saved.bytes_written},
-                {"seconds", saved.seconds}});
+                {"seconds", saved.seconds},
+                {"notes", notes}});
   } else if (!a.common.quiet) {
     print("{} -> {}: {} samples, {}\n", plural(a.inputs.size(), "film"), a.output, stats.accepted,
           size_text(saved.bytes_written));
+    Notes().print(notes);
   }
   return kOk;
 }

@@ -101,7 +101,7 @@ Result<Run> start_or_continue(const SimulateArguments& a, const FilmOptions& o, 
   if (!film) return film.error();
   std::error_code error;
   if (a.checkpoint.empty() || !std::filesystem::exists(a.checkpoint, error)) return Run{*std::move(film), 0};
-  auto saved = load_film(a.checkpoint, a.common.threads);
+  auto saved = load_film(a.checkpoint, a.common.threads, [](const Progress&) { return !interrupted(); });
   if (!saved) return saved.error();
   const auto done = steps_done(saved->progress, run);
   if (!done) {

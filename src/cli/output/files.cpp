@@ -16,6 +16,7 @@
 
 #include "src/cli/options/parse.hpp"
 #include "src/cli/output/messages.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {
@@ -115,6 +116,14 @@ void check_outputs(const std::vector<NamedFile>& written, const std::vector<Name
   for (const NamedFile& file : written) {
     if (!file.path.empty()) take(check_writable(file.path));
   }
+}
+
+LoadedFilm load_film_file(const std::string& path, int threads, std::vector<std::string>& notes) {
+  LoadedFilm film = take(load_film(path, threads, [](const Progress&) { return !interrupted(); }));
+  if (!film.has_checksum) {
+    notes.push_back(path + ": has no checksum, as films of earlier versions; damage may go unseen");
+  }
+  return film;
 }
 
 bool is_image_name(const std::string& path) {

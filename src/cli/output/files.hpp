@@ -1,6 +1,7 @@
 // The files that a command writes and reads: no written one is another of them.
 #pragma once
 
+#include <spectile/image/film_file.hpp>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ void check_files(const std::vector<NamedFile>& written, const std::vector<NamedF
 
 /// The same, and refuses a written file that cannot be written, before there is work to lose. Throws: Stop.
 void check_outputs(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read);
+
+/// A film from its file. Stops at signals. A note is added for one without a checksum. Throws: Stop.
+LoadedFilm load_film_file(const std::string& path, int threads, std::vector<std::string>& notes);
 
 /// True for a name that ends as image files do, OpenEXR's own endings among them.
 bool is_image_name(const std::string& path);

@@ -14,6 +14,7 @@
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
 #include "src/io/film/film_channels.hpp"
+#include "src/io/film/film_checksum.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -152,6 +153,7 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   spec.source = &header;
   spec.channels = job.channels();
   spec.text_attributes = io::film_attributes(s, progress);
+  spec.text_attributes.emplace_back(io::kFilmChecksum, io::film_checksum(spec.text_attributes, s));
   SPECTILE_ASSIGN(const auto report, io::run_image_job({job, path, std::move(spec), options, {}, {}}));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return FilmFileReport{report.bytes_written, seconds.count()};
@@ -165,7 +167,7 @@ int lines_at_once(std::size_t channels, int width) {
 }
 
 Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::FilmLimb>& limbs,
-                        const PixelWindow& data) {
+                        const PixelWindow& data, const ProgressFunction& progress) {
   std::vector<io::PlaneSpec> planes;
   for (const io::FilmLimb& limb : limbs) {
     for (const char* end : {".hi", ".lo"}) planes.push_back({limb.name + end, SampleType::kUint32});
@@ -175,6 +177,12 @@ Result<void> read_limbs(io::ExrInput& input, State& s, const std::vector<io::Fil
     SPECTILE_ASSIGN(auto strip,
                     io::make_strip(planes, data.width(), first, std::min(step, data.height() - first)));
     SPECTILE_TRY(io::fill_strip(input, 0, planes, *strip));
+    const auto done =
+        static_cast<std::uint64_t>(data.width()) * static_cast<std::uint64_t>(first + strip->lines);
+    const auto pixels = static_cast<std::uint64_t>(data.width()) * static_cast<std::uint64_t>(data.height());
+    if (progress && !progress({done, pixels})) {
+      return make_error(ErrorCode::kCancelled, "stopped on request");
+    }
     for (int line = first; line < first + strip->lines; ++line) {
       const int y = data.y0 + line;
       for (std::size_t i = 0; i < limbs.size(); ++i) {
@@ -211,7 +219,7 @@ void copy_weights(State& s) {
   }
 }
 
-Result<LoadedFilm> load(const std::string& path, int threads) {
+Result<LoadedFilm> load(const std::string& path, int threads, const ProgressFunction& progress) {
   SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, tiles::thread_count(threads)));
   const io::PartHeader& header = input->header(0);
   SPECTILE_ASSIGN(auto described, io::film_of(header, path));
@@ -230,11 +238,17 @@ Result<LoadedFilm> load(const std::string& path, int threads) {
       }
     }
   }
-  SPECTILE_TRY(read_limbs(*input, s, limbs, data));
+  SPECTILE_TRY(read_limbs(*input, s, limbs, data, progress));
   copy_weights(s);
   for (std::size_t t = 0; t < s.tiles.size(); ++t) s.normalize_carries(t);
   if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
-  return LoadedFilm{FilmAccess::make(std::move(described.state)), std::move(described.progress)};
+  const auto checksum = header.text(io::kFilmChecksum);
+  if (checksum && *checksum != io::film_checksum(io::film_attributes(s, described.progress), s)) {
+    return make_error(ErrorCode::kBadFile,
+                      "{}: is damaged: its sums or options are not those of its checksum", path);
+  }
+  return LoadedFilm{FilmAccess::make(std::move(described.state)), std::move(described.progress),
+                    checksum.has_value()};
 }
 
 }  // namespace
@@ -244,8 +258,8 @@ Result<FilmFileReport> save_film(const Film& film, const std::string& path, cons
   return io::contained<FilmFileReport>(path, [&] { return save(film, path, progress, options); });
 }
 
-Result<LoadedFilm> load_film(const std::string& path, int threads) {
-  return io::contained<LoadedFilm>(path, [&] { return load(path, threads); });
+Result<LoadedFilm> load_film(const std::string& path, int threads, const ProgressFunction& progress) {
+  return io::contained<LoadedFilm>(path, [&] { return load(path, threads, progress); });
 }
 
 }  // namespace spectile

@@ -1,0 +1,79 @@
+// A film's checksum: whatever bit of a file is flipped, the film that is loaded is the one that was saved, or
+// none is. Films of versions without a checksum are still loaded, and known as such.
+#include <random>
+#include <spectile/image/film_file.hpp>
+
+#include "tests/film/film_support.hpp"
+#include "tests/support/exr_files.hpp"
+
+namespace spectile::test {
+namespace {
+
+class FilmChecksums : public testing::Test {
+ protected:
+  void save(const char* compression) {
+    FilmOptions o = small_film();
+    o.spectral = true;
+    o.bands = *Bands::uniform(400, 700, 100);
+    o.statistics = PixelStatistics::kVariance;
+    o.sensors.push_back({"canon-eos-5d-mkii", *Sensor::named("canon-eos-5d-mkii")});
+    film_.emplace(*Film::create(o));
+    ASSERT_TRUE(film_->add(random_samples(900, 7).wavelengths()));
+    ImageOptions options;
+    options.compression = *Compression::parse(compression);
+    ASSERT_TRUE(save_film(*film_, path_, "note", options));
+  }
+
+  TempFolder folder_;
+  const std::string path_ = folder_ / "film.exr";
+  std::optional<Film> film_;
+};
+
+TEST_F(FilmChecksums, FlippedBitsAreNeverTakenForSums) {
+  for (const char* compression : {"none", "rle", "zip:1"}) {
+    save(compression);
+    const std::string bytes = file_bytes(path_);
+    std::mt19937 random(3);
+    std::size_t refused = 0;
+    constexpr int kFlips = 300;
+    for (int i = 0; i < kFlips; ++i) {
+      std::string damaged = bytes;
+      const std::size_t at = random() % damaged.size();
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << (random() % 8)));
+      write_text(folder_ / "flipped.exr", damaged);
+      const auto loaded = load_film(folder_ / "flipped.exr");
+      refused += loaded ? 0 : 1;
+      // What says nothing of the film, its preview and padding, may differ.
+      if (loaded) {
+        EXPECT_TRUE(loaded->film.same_contents(*film_)) << compression << " byte " << at;
+        EXPECT_EQ(loaded->progress, "note") << compression << " byte " << at;
+      }
+    }
+    EXPECT_GT(refused, 150U) << compression;
+  }
+}
+
+TEST_F(FilmChecksums, FilmsWithoutOneAreLoadedAndKnown) {
+  save("zip:1");
+  const auto now = load_film(path_);
+  ASSERT_TRUE(now);
+  EXPECT_TRUE(now->has_checksum);
+  // Uint channels are read as they are; the attribute is taken out.
+  Picture picture = read_picture(path_);
+  picture.header.erase("spectileFilmChecksum");
+  write_scanlines(folder_ / "old.exr", picture);
+  const auto old = load_film(folder_ / "old.exr");
+  ASSERT_TRUE(old) << old.error().message;
+  EXPECT_FALSE(old->has_checksum);
+  EXPECT_TRUE(old->film.same_contents(*film_));
+}
+
+TEST_F(FilmChecksums, LoadingStopsOnRequest) {
+  save("zip:1");
+  const auto stopped = load_film(path_, 1, [](const Progress&) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace spectile::test
