@@ -65,7 +65,7 @@ Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choic
   out.mapped = choice.map;
   out.quantity = quantity.value_or(Quantity::kIlluminant);
   if (!quantity)
-    notes.push_back("mapped channels are taken for light; --quantity reflectance states the other");
+    notes.emplace_back("mapped channels are taken for light; --quantity reflectance states the other");
   return out;
 }
 
@@ -89,6 +89,7 @@ Result<Bands> bands_read(const std::vector<SpectralChannel>& read) {
   }
   if (!list.empty()) return Bands::from_list(std::move(list));
   std::vector<double> centres;
+  centres.reserve(read.size());
   for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
   return Bands::from_centres(centres);
 }
