@@ -125,7 +125,8 @@ class Checker {
   }
 
   void check_duplicates() {
-    for (auto& [key, component] : components_) {
+    for (const auto& entry : components_) {
+      const Component& component = entry.second;
       std::vector<std::size_t> order(component.names.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       std::ranges::stable_sort(order, {}, [&](std::size_t i) { return component.wavelengths[i]; });

@@ -118,7 +118,7 @@ Result<SpectralSet> mapped_set(const ExrInput& input, const ChannelChoice& choic
   note_other_parts(input, {out.part}, notes);
   out.quantity = quantity.value_or(Quantity::kIlluminant);
   if (!quantity)
-    notes.push_back("mapped channels are taken for light; --quantity reflectance states the other");
+    notes.emplace_back("mapped channels are taken for light; --quantity reflectance states the other");
   return out;
 }
 

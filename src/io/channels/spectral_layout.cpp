@@ -166,11 +166,8 @@ SpectralChannel ocean_channel(double metres) {
 /// As Ocean's spectral OpenEXR files have it: the wavelength in metres is an attribute named after the
 /// channel.
 std::optional<SpectralChannel> parse_ocean(std::string_view name, const PartHeader& header) {
-  std::string_view digits = name;
-  if (!take(digits, "wl") || digits.empty() ||
-      !std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; })) {
-    return std::nullopt;
-  }
+  // Its documents allow any name.
+  if (name.find('.') != std::string_view::npos) return std::nullopt;
   const auto metres = header.number(std::string(name) + ".wavelength");
   if (!metres) return std::nullopt;
   const SpectralChannel channel = ocean_channel(*metres);

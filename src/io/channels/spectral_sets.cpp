@@ -49,11 +49,19 @@ Result<Bands> bands_read(const std::vector<SpectralChannel>& read) {
   }
   if (!list.empty()) return Bands::from_list(std::move(list));
   std::vector<double> centres;
+  centres.reserve(read.size());
   for (const SpectralChannel& channel : read) centres.push_back(channel.wavelength_nm);
   return Bands::from_centres(centres);
 }
 
 Result<Bands> SpectralSet::bands(const PartHeader& header, const std::string& path) const {
+  if (names.empty()) {
+    return make_error(
+        ErrorCode::kBadFile,
+        "{}: re-radiates, but has no channels of one wavelength (T.500,000000nm), which say the "
+        "bands",
+        path);
+  }
   std::vector<Band> list;
   for (const MappedChannel& channel : mapped) list.push_back(channel.band);
   auto out = list.empty() ? bands_read(read) : Bands::from_list(std::move(list));
@@ -116,7 +124,7 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
     const PartHeader& header = input.header(part);
     if (header.deep()) continue;
     const std::vector<std::string> views = header.views();
-    using Key = std::tuple<std::string, std::string, Quantity>;
+    using Key = std::tuple<std::string, std::string, Quantity, const Dialect*>;
     std::map<Key, std::vector<std::pair<std::string, SpectralChannel>>> found;
     for (const StoredChannel& stored : header.channels()) {
       const auto channel = parse_spectral_channel(stored.name, header);
@@ -126,14 +134,14 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
       const bool light =
           channel->kind == SpectralKind::kEmissive || channel->kind == SpectralKind::kPolarised;
       const Quantity quantity = light ? Quantity::kIlluminant : Quantity::kReflectance;
-      found[{layer, view, quantity}].emplace_back(stored.name, *channel);
+      found[{layer, view, quantity, channel->dialect}].emplace_back(stored.name, *channel);
     }
     for (auto& [key, channels] : found) {
       std::ranges::stable_sort(channels, {}, [](const auto& c) { return c.second.wavelength_nm; });
       SpectralSet set;
       set.part = part;
       if (input.parts() > 1) set.part_name = part_label(input, part);
-      std::tie(set.layer, set.view, set.quantity) = key;
+      std::tie(set.layer, set.view, set.quantity, set.dialect) = key;
       set.default_view = views.empty() || set.view == views.front();
       for (auto& [name, channel] : channels) {
         if (channel.kind == SpectralKind::kReradiating) {
@@ -144,12 +152,11 @@ std::vector<SpectralSet> spectral_sets(const ExrInput& input) {
           set.polarised.emplace_back(name, channel);
           continue;
         }
-        set.dialect = channel.dialect;
         set.quantity_assumed = !channel.dialect->says_quantity;
         set.names.push_back(name);
         set.read.push_back(channel);
       }
-      if (!set.names.empty()) out.push_back(std::move(set));
+      if (!set.names.empty() || !set.reradiating.empty()) out.push_back(std::move(set));
     }
   }
   return out;

@@ -171,5 +171,35 @@ TEST_F(SpectralDialects, AreListedWithExamplesThatTheyRead) {
   }
 }
 
+TEST_F(SpectralDialects, TwoInOneFileAreTwoSets) {
+  Picture picture = blank(2, 2);
+  add_even(picture, "", 0.5);
+  for (int nm = 400; nm <= 700; nm += 100) {
+    picture.add(fmt::format("wavelength{}", nm), Imf::FLOAT, [](int, int) { return 7.0; });
+  }
+  const ImageReport report = project(picture);
+  EXPECT_EQ(report.bands, 31U);
+  EXPECT_NEAR(luminance_at_origin(out_), 0.5, 1e-6);
+  EXPECT_THAT(report.notes, testing::Contains(HasSubstr("left out: 4 bands of emission")));
+}
+
+TEST_F(SpectralDialects, ReradiationAloneIsSaid) {
+  Picture picture = blank(2, 2);
+  picture.add("T.400,000000nm.500,000000nm", Imf::FLOAT, [](int, int) { return 0.5; });
+  write_scanlines(in_, picture);
+  EXPECT_THAT(error_of(), HasSubstr("no channels of one wavelength"));
+}
+
+TEST_F(SpectralDialects, WavelengthAttributesMayBeOfAnyChannel) {
+  Picture picture = blank(2, 2);
+  const std::pair<const char*, double> channels[] = {{"blue", 450e-9}, {"green", 550e-9}, {"red", 650e-9}};
+  for (const auto& [name, metres] : channels) {
+    picture.add(name, Imf::FLOAT, [](int, int) { return 0.5; });
+    picture.header.insert(std::string(name) + ".wavelength", Imf::DoubleAttribute(metres));
+  }
+  EXPECT_EQ(project(picture).bands, 3U);
+  EXPECT_NEAR(luminance_at_origin(out_), 0.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace spectile::test

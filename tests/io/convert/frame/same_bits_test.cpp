@@ -2,6 +2,7 @@
 #include <OpenEXR/ImfStringVectorAttribute.h>
 #include <gtest/gtest.h>
 
+#include <spectile/image/convert.hpp>
 #include <spectile/image/image.hpp>
 #include <spectile/isa.hpp>
 
@@ -66,14 +67,22 @@ class SameBits : public testing::Test {
     down.nonfinite = NonFinite::kZero;
     down.pixel = SampleType::kFloat;
     down.compression = up.compression;
+    ConvertImageOptions other;
+    other.nonfinite = NonFinite::kZero;
+    other.bands = *Bands::uniform(380, 720, 17);
+    other.scale = 0.3;
+    other.compression = up.compression;
     const Setting plain = {"scalar", 1, 1024};
     force(plain, up);
     force(plain, down);
+    force(plain, other);
     if (!upsample_image(input, folder / "spectral.exr", up)) return false;
     const auto projected = project_image(folder / "spectral.exr", folder / "rgb.exr", down);
     EXPECT_TRUE(projected) << input << ": " << projected.error().message;
     if (!projected) return true;
+    EXPECT_TRUE(convert_image(folder / "spectral.exr", folder / "bands.exr", other)) << input;
     const test::Picture spectral = test::read_picture(folder / "spectral.exr");
+    const test::Picture resampled = test::read_picture(folder / "bands.exr");
     const test::Picture rgb = test::read_picture(folder / "rgb.exr");
     EXPECT_EQ(spectral.planes.size() - read_channel_count(input), bands.count()) << input;
     for (const Setting& setting : settings) {
@@ -81,10 +90,13 @@ class SameBits : public testing::Test {
                                " threads, tiles of " + std::to_string(setting.tile_lanes);
       force(setting, up);
       force(setting, down);
+      force(setting, other);
       EXPECT_TRUE(upsample_image(input, folder / "other.exr", up)) << what;
       EXPECT_TRUE(test::read_picture(folder / "other.exr").planes == spectral.planes) << what;
       EXPECT_TRUE(project_image(folder / "spectral.exr", folder / "other.exr", down)) << what;
       EXPECT_TRUE(test::read_picture(folder / "other.exr").planes == rgb.planes) << what;
+      EXPECT_TRUE(convert_image(folder / "spectral.exr", folder / "other.exr", other)) << what;
+      EXPECT_TRUE(test::read_picture(folder / "other.exr").planes == resampled.planes) << what;
     }
     return true;
   }
