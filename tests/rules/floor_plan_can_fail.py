@@ -24,6 +24,7 @@ BROKEN_LINES = [
     ("libdeflate", "src/io/exr/strips.cpp", "#include <libdeflate.h>"),
     ("Eigen", "src/upsampling/gamut.cpp", "#include <Eigen/Dense>"),
     ("CLI11", "bench/report/html.cpp", "#include <CLI/CLI.hpp>"),
+    ("pugixml", "src/io/text/text_file.cpp", "#include <pugixml.hpp>"),
     ("nlohmann-json", "src/io/film/film_file.cpp", "#include <nlohmann/json.hpp>"),
     ("fmt", "kernels/convert.inl", "#include <fmt/format.h>"),
     ("POSIX", "include/spectile/result.hpp", "#include <sys/stat.h>"),
