@@ -1,4 +1,4 @@
-// What users without patience do: each message names the file, what is wrong and the remedy, and nothing is
+// Mistakes of users in a hurry: each message names the file, what is wrong and the remedy, and nothing is written.
 // written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
