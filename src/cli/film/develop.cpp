@@ -61,9 +61,6 @@ int run_develop(const DevelopArguments& a) {
   const auto report = write_developed(loaded.film, a.to, sensor, a.output, options);
   options.progress = nullptr;  // clears the bar
   if (!report) {
-    // A plan's bands hold no light's emission values but those that it was made for.
-    const Error of_light = with_light(report.error(), a.input, "");
-    if (of_light.message != report.error().message) return complain({ErrorCode::kBadFile, of_light.message});
     const bool of_film = report.error().code == ErrorCode::kBadArgument;
     return complain(
         {of_film ? ErrorCode::kBadFile : report.error().code,

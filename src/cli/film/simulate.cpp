@@ -203,6 +203,7 @@ int run_simulate(const SimulateArguments& a) {
   catch_signals();
   const std::string text = run_text(a, s);
   auto started = start_or_continue(a, o, text);
+  if (!started) started = with_light(started.error(), file_of_bands(a.bands.value_or("")), "");
   const bool usage = !started && started.error().code == ErrorCode::kBadArgument;
   Run state = usage ? take_usage(std::move(started)) : take(std::move(started));
   const std::uint64_t continued = state.done;

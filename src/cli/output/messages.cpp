@@ -58,6 +58,14 @@ int complain_write(const std::string& path, int error) {
 }
 
 Error with_light(Error error, const std::string& plan, const std::string& light) {
+  const std::string observed = "the plan of these bands is for the ";
+  if (error.message.starts_with(observed)) {
+    error.message = fmt::format(
+        "{}: its plan is for the {}; choose the plan's observer, or another with spectile "
+        "plan --observer",
+        plan, error.message.substr(observed.size()));
+    return error;
+  }
   const std::string unnamed = "the plan of these bands holds no emission values for this light";
   if (!error.message.starts_with(unnamed)) return error;
   const std::string name = light.empty() ? "D65" : light;

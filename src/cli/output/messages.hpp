@@ -32,7 +32,8 @@ int complain_usage(const std::string& message);
 int complain_write(const std::string& path, int error);
 
 /// The error of a plan that does not hold a light with the names of both, and a remedy: the library has only
-/// the light's numbers. Other errors stay as they are. `light`: as it was given, D65 for an empty text.
+/// the light's numbers. That of a plan for another observer likewise. Other errors stay as they are. `light`:
+/// as it was given, D65 for an empty text.
 Error with_light(Error error, const std::string& plan, const std::string& light);
 
 /// Ends the command with an exit code; the error has been printed.

@@ -187,7 +187,7 @@ Result<ColorChannels> choose_colors(const ExrInput& input, const ChannelChoice& 
   }
   if (header.find(chosen.names[0])->type == SampleType::kUint32) {
     notes.push_back(
-        fmt::format("channels {} are integers: 1 is white, as of other samples", joined_names(chosen)));
+        fmt::format("channels {} are integers: 1 is white, as it is of floats", joined_names(chosen)));
   }
   return chosen;
 }

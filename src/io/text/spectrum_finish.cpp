@@ -110,8 +110,7 @@ std::size_t scale_values(RawTable& raw, const SpectrumFileOptions& options) {
       }
     }
   }
-  if (percent && !options.one)
-    raw.notes.emplace_back("values in percent, as the file says, divided by 100");
+  if (percent && !options.one) raw.notes.emplace_back("values in percent, as the file says, divided by 100");
   if (options.one && *options.one != 1)
     raw.notes.push_back(fmt::format("values divided by {}", *options.one));
   return marked;

@@ -150,6 +150,16 @@ TEST_F(ColorGuesses, OfAlphaAreSaidWhereTheyMatter) {
   expect_said({"light above alpha", flame, {"16 pixels are brighter than alpha"}, {"--method", "sigmoid"}},
               first(3));
   expect_said({"mask", with_alpha, {"4 pixels of alpha 0 with a colour"}, {"--mask", "alpha"}}, first(1));
+  const std::string mask = folder_ / "mask.exr";
+  Picture rgba = constant({"R", "G", "B", "A"}, 1);
+  write_scanlines(mask, rgba);
+  expect_said({"channel of the mask",
+               [] {
+                 return constant({"R", "G", "B"});
+               },
+               {"channel A of " + mask + " is taken for the mask"},
+               {"--mask", mask}},
+              first(1));
   expect_said({"mask without alpha",
                [] {
                  return constant({"R", "G", "B"});

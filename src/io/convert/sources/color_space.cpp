@@ -68,11 +68,17 @@ Result<RgbSpace> from_interop_id(const std::string& id, const std::string& path)
     if (known.id == id) return rgb_space(known.space);
   }
   if (id.starts_with("srgb_") || id.starts_with("g22_") || id.starts_with("g18_")) {
-    return make_error(ErrorCode::kBadFile,
-                      "{}: colorInteropID \"{}\" is not linear; convert the image to linear first", path, id);
+    return make_error(
+        ErrorCode::kBadFile,
+        "{}: colorInteropID \"{}\" is not linear; convert the image to linear first, or state with "
+        "--input-space what it is",
+        path, id);
   }
-  return make_error(ErrorCode::kBadFile,
-                    "{}: colorInteropID \"{}\" is not a colour space that can be converted", path, id);
+  return make_error(
+      ErrorCode::kBadFile,
+      "{}: colorInteropID \"{}\" is not a colour space that can be converted; --input-space states what it "
+      "is",
+      path, id);
 }
 
 }  // namespace

@@ -76,10 +76,16 @@ Result<void> PixelMask::choose(const RgbSource& source) {
       }
       part_ = part;
       channel_ = name;
+      choices_ = 0;
+      for (const char* const other : {"A", "Y", "R"}) choices_ += header.find(other) != nullptr ? 1 : 0;
       return crop(source);
     }
   }
   return make_error(ErrorCode::kBadFile, "{}: has no channel A, Y or R to be a mask", path);
+}
+
+std::string PixelMask::chosen() const {
+  return choices_ > 1 ? fmt::format("channel {} of {}", channel_, file_->path()) : std::string();
 }
 
 /// The part of the mask that goes with the part of the source, wherever the mask's own data window begins.

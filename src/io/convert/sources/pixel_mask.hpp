@@ -30,6 +30,9 @@ class PixelMask {
   /// True if strips get a plane of floats from it, after their own.
   bool adds_plane() const noexcept { return file_ != nullptr; }
 
+  /// "channel A of mask.exr" where the file has other channels that could be a mask too; empty elsewhere.
+  std::string chosen() const;
+
   /// Sets masked[x] to 1 or 0 for each pixel of a line, and returns how many are.
   std::uint64_t line(const Strip& strip, int line, std::uint8_t* masked) const;
 
@@ -46,6 +49,7 @@ class PixelMask {
   std::optional<RegionReader> region_;  // where the source reads a part only
   int part_ = 0;
   std::string channel_;
+  int choices_ = 0;
 };
 
 }  // namespace spectile::io
