@@ -173,6 +173,7 @@ int run_plan(const PlanArguments& a) {
   o.max_error = a.max_error;
   o.observer = a.observer;
   o.folds = a.folds;
+  o.go_on = [] { return !interrupted(); };
   add_lights(a, scene);
   add_reflectances(a, scene);
   print_notes(a.common, scene.notes);

@@ -7,7 +7,7 @@
 namespace spectile::cli {
 namespace {
 
-/// What is written: a colour, or how light is polarised.
+/// Content of the output: a colour, or how light is polarised.
 struct Target {
   ColorTarget color = ColorTarget::kSrgb;
   std::optional<Polarisation> polarisation = std::nullopt;

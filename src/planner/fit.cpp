@@ -34,7 +34,8 @@ constexpr double kMinUnit = 1e-6;
 class Fit {
  public:
   Fit(const Problem& p, const InitialGuess& guess)
-      : equations_(p, static_cast<Eigen::Index>(guess.wavelengths_nm.size()), guess.half_nm > 0) {
+      : equations_(p, static_cast<Eigen::Index>(guess.wavelengths_nm.size()), guess.half_nm > 0),
+        check_(&p.check) {
     now_.lambda = Eigen::Map<const Vector>(guess.wavelengths_nm.data(), equations_.layout().k);
     now_.half = Vector::Constant(now_.lambda.size(), guess.half_nm);
     keep_apart(now_);
@@ -106,6 +107,7 @@ class Fit {
     double damping = 1e-3;
     double best = equations_.cost(now_);
     for (int step = 0; step < steps && damping < 1e8; ++step) {
+      (*check_)();
       Matrix normal;
       Vector right;
       equations_.build(now_, normal, right);
@@ -154,6 +156,7 @@ class Fit {
   }
 
   Equations equations_;
+  const std::function<void()>* check_;  // the problem's
   Parameters now_;
 };
 

@@ -109,6 +109,9 @@ std::vector<plan::InitialGuess> initial_guesses(plan::Problem& problem, const Pl
 Parameters fitted(const Matrix& reflectances, const PlannerOptions& o, const std::vector<Matrix>& integrals,
                   std::size_t count) {
   plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
+  problem.check = [&o] {
+    if (o.go_on && !o.go_on()) throw plan::Stopped{};
+  };
   Parameters n = plan::fit(problem, initial_guesses(problem, o, count));
   // Whole picometres, which names of channels hold; bands that touch still do not overlap.
   for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
@@ -248,8 +251,12 @@ Result<Plan> make(const PlannerOptions& o) {
 }  // namespace
 
 Result<Plan> make_plan(const PlannerOptions& options) {
-  return guard_memory([&] { return make(options); }, "no memory to plan for {} reflectances",
-                      options.reflectances.size());
+  try {
+    return guard_memory([&] { return make(options); }, "no memory to plan for {} reflectances",
+                        options.reflectances.size());
+  } catch (const plan::Stopped&) {
+    return make_error(ErrorCode::kCancelled, "stopped on request");
+  }
 }
 
 }  // namespace spectile

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <functional>
 #include <spectile/plan/plan.hpp>
 #include <vector>
 
@@ -93,7 +94,12 @@ struct Problem {
   Vector sample_weights;               ///< [N], of squared differences
   SampleSet pool;                      ///< products that may be added; none for one bounce
   std::vector<Matrix> pool_reference;  ///< a light: [3][products]
+  /// Called some times a second. Throws: Stopped, where the work is not wanted any more.
+  std::function<void()> check = [] {};
 };
+
+/// Ends a plan that is not wanted any more; caught where it was asked for.
+struct Stopped {};
 
 /// Pairs of XYZ's components in the order of `squared_metric`.
 inline constexpr Eigen::Index kPairs = 6;

@@ -107,12 +107,14 @@ std::pair<Eigen::Index, double> best_addition(const std::vector<LightEquations>&
 }
 
 /// Takes each in turn out and puts the best one in, until none moves. Returns what they take.
-double exchange_all(const std::vector<LightEquations>& lights, std::vector<Eigen::Index>& chosen) {
+double exchange_all(const Problem& problem, const std::vector<LightEquations>& lights,
+                    std::vector<Eigen::Index>& chosen) {
   constexpr int kSweeps = 30;
   double taken = 0;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bool moved = false;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
+      problem.check();
       const Eigen::Index before = chosen.front();
       chosen.erase(chosen.begin());
       const auto [best, sum] = best_addition(lights, chosen);
@@ -154,7 +156,7 @@ std::vector<double> choose_wavelengths(const Problem& problem, std::size_t count
         chosen.push_back(static_cast<Eigen::Index>(k * interval + random() % interval));
       }
     }
-    const double taken = exchange_all(lights, chosen);
+    const double taken = exchange_all(problem, lights, chosen);
     if (taken > most) {
       most = taken;
       best = chosen;

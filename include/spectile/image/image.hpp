@@ -181,9 +181,7 @@ struct ProjectImageOptions : ImageOptions {
   std::optional<MeasuredSpectrum> light;      ///< for reflectances; D65 where none is given
   std::optional<Quantity> quantity;           ///< which to take where a file holds both
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
-  /// Reflected and emitted light together, of a file that holds both: emission is weighed by this factor.
-  /// Without one, reflectance 1 under the light and emission 1 in every band have the same Y, 1.
-  std::optional<double> emission;
+  std::optional<double> emission;  ///< that of the same file is added, times this; 1 in every band has Y 1
   bool photometric = false;  ///< light in W / (m2 sr nm) becomes XYZ whose Y is cd / m2; emission only
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <spectile/color/color_difference.hpp>
@@ -72,7 +73,8 @@ struct PlannerOptions {
   std::optional<double>
       max_error;  ///< or the smallest number that keeps every light's and bounce's maximum below this
   Observer observer = Observer::kCie1931;
-  int folds = 5;  ///< of the cross-validation; 0 for none
+  int folds = 5;                ///< of the cross-validation; 0 for none
+  std::function<bool()> go_on;  ///< asked some times a second; false stops with kCancelled
 };
 
 /// Chooses wavelengths and weights.

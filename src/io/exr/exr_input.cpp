@@ -25,7 +25,7 @@ namespace spectile::io {
 namespace {
 
 // Of chunks that several threads may decode side by side.
-constexpr std::size_t kMostChunkBytes = std::size_t{128} << 20;
+constexpr std::size_t kMaxChunkBytes = std::size_t{128} << 20;
 
 /// One line of what a library says: no line breaks, no final full stop, no file name before it.
 std::string one_line(std::string text) {
@@ -92,7 +92,7 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
     }
     // OpenEXR holds two chunks for each thread, and one without any.
     const auto too_large = [](const PartHeader& header) {
-      return !header.deep() && header.chunk_bytes() > kMostChunkBytes;
+      return !header.deep() && header.chunk_bytes() > kMaxChunkBytes;
     };
     if (workers > 0 && std::ranges::any_of(input->headers_, too_large)) {
       input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), 0);

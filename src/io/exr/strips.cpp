@@ -53,7 +53,7 @@ Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, in
 
 int strip_lines(const PartHeader& header, const std::vector<PlaneSpec>& planes, int at_least) {
   constexpr std::size_t kStripBytes = std::size_t{16} << 20;
-  constexpr std::size_t kMostBytes = 8 * kStripBytes;
+  constexpr std::size_t kMaxStripBytes = 8 * kStripBytes;
   // The largest chunk of the common compressions; tiles may be higher.
   const int unit = header.tiles() ? header.chunk_lines() : 32;
   std::size_t line = 1;
@@ -61,7 +61,7 @@ int strip_lines(const PartHeader& header, const std::vector<PlaneSpec>& planes, 
   const auto fitting = static_cast<int>(std::min<std::size_t>(kStripBytes / line, 256));
   const int lines = std::max({fitting / unit * unit, unit, at_least});
   // Thousands of channels: what is decoded at once has no more to do with the output's chunks.
-  if (!header.tiles() && line * static_cast<std::size_t>(std::min(lines, header.height())) > kMostBytes) {
+  if (!header.tiles() && line * static_cast<std::size_t>(std::min(lines, header.height())) > kMaxStripBytes) {
     return std::clamp(fitting, 1, header.height());
   }
   return std::clamp(lines, 1, header.height());

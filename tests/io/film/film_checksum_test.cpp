@@ -43,7 +43,7 @@ TEST_F(FilmChecksums, FlippedBitsAreNeverTakenForSums) {
       write_text(folder_ / "flipped.exr", damaged);
       const auto loaded = load_film(folder_ / "flipped.exr");
       refused += loaded ? 0 : 1;
-      // What says nothing of the film, its preview and padding, may differ.
+      // The preview and padding say nothing of the film, and may differ.
       if (loaded) {
         EXPECT_TRUE(loaded->film.same_contents(*film_)) << compression << " byte " << at;
         EXPECT_EQ(loaded->progress, "note") << compression << " byte " << at;

@@ -46,9 +46,9 @@ void parse_map(const std::string& path, const std::string& text) {
 }
 
 const Case kCases[] = {
-    {"objects in a list", [](std::size_t n) { return "{\"promise\":[" + repeated("{},", n) + "{}]}"; },
+    {"objects in a list", [](std::size_t n) { return "{\"illuminants\":[" + repeated("{},", n) + "{}]}"; },
      parse_plan_text},
-    {"objects of a key", [](std::size_t n) { return "{\"promise\":[" + repeated("{\"a\":1},", n) + "1]}"; },
+    {"objects of a key", [](std::size_t n) { return "{\"illuminants\":[" + repeated("{\"a\":1},", n) + "1]}"; },
      parse_plan_text},
     {"lists in a list", [](std::size_t n) { return "{\"illuminants\":[" + repeated("[],", n) + "[]]}"; },
      parse_plan_text},

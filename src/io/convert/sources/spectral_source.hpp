@@ -22,7 +22,7 @@ Error no_spectra(const ExrInput& input);
 void load_block(const kernels::KernelTable& kernels, const std::vector<PlaneSpec>& planes,
                 std::size_t samples, const Strip& strip, int line, std::size_t x, float* block);
 
-/// What of a file's spectra is read.
+/// Part of a file's spectra that is read.
 enum class SpectralContent {
   kOneQuantity,         ///< the bands, then re-radiation
   kBothQuantities,      ///< the same of reflectance, then the bands of emission
