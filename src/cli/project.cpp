@@ -104,8 +104,7 @@ void add_project(const Command& app, int& exit) {
                  "Illuminant on reflectances; D65 by default");
   add_observer_option(command, a->observer);
   command.choice("--to", a->to, kProjectTargets, kColorGroup,
-                 "srgb (linear, white D65), xyz, luminance (channel Y), or, of linearly polarised light, dop "
-                 "(degree) or aolp (angle)");
+                 "srgb (linear), xyz, luminance; of polarised light dop (degree), aolp (angle)");
   add_adapt_option(command, a->adapt);
   add_spectrum_options(command, a->spectra);
   command.choice("--quantity", a->quantity, kQuantities, kColorGroup,

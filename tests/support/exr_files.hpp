@@ -181,6 +181,15 @@ inline Picture read_picture(const std::string& path, int part = 0) {
   return picture;
 }
 
+/// The header but for one attribute. OpenEXR 3.1's Header::erase leaks what it takes out.
+inline Imf::Header without(const Imf::Header& header, const std::string& name) {
+  Imf::Header out(header.displayWindow(), header.dataWindow());
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    if (name != it.name()) out.insert(it.name(), it.attribute());
+  }
+  return out;
+}
+
 /// The bytes that an attribute's value takes in a file.
 inline std::string attribute_bytes(const Imf::Attribute& attribute) {
   Imf::StdOSStream stream;

@@ -102,15 +102,6 @@ TEST(FilmFileErrors, LimbsOfAnyBits) {
   }
 }
 
-/// The header but for one attribute. OpenEXR 3.1's Header::erase leaks what it takes out.
-Imf::Header without(const Imf::Header& header, const std::string& name) {
-  Imf::Header out(header.displayWindow(), header.dataWindow());
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    if (name != it.name()) out.insert(it.name(), it.attribute());
-  }
-  return out;
-}
-
 TEST(FilmFileErrors, AttributesMissingOrChangedAreNamed) {
   const TempFolder folder;
   Picture good = read_picture(saved_film(folder));
@@ -124,7 +115,8 @@ TEST(FilmFileErrors, AttributesMissingOrChangedAreNamed) {
     Picture bad = good;
     bad.header = without(good.header, name);
     write_scanlines(folder / "bad.exr", bad);
-    EXPECT_FALSE(loads(folder / "bad.exr")) << name << " missing";
+    // Films of earlier versions have no checksum.
+    EXPECT_EQ(loads(folder / "bad.exr"), name == "spectileFilmChecksum") << name << " missing";
     for (const char* text : {"", "?", "-1", "nan", "1e400", "99999999999999999999", "1 2 3 4 5", "0 0 0 0",
                              "-1 -1 5 5", "inf", " 1", "1 ", "0 0 2147483647 2147483647", "4294967295"}) {
       if (name == "spectileFilmProgress") continue;
@@ -160,7 +152,8 @@ TEST(FilmFileErrors, ChannelsMissingOrOfOtherKinds) {
     bad.header.channels() = Imf::ChannelList();
     for (const auto& [other, p] : bad.planes) bad.header.channels().insert(other, Imf::Channel(p.type));
     write_scanlines(folder / "bad.exr", bad);
-    EXPECT_FALSE(loads(folder / "bad.exr")) << name << " missing";
+    // Films of earlier versions have no checksum.
+    EXPECT_EQ(loads(folder / "bad.exr"), name == "spectileFilmChecksum") << name << " missing";
     bad = good;
     bad.planes[name].type = Imf::FLOAT;
     bad.header.channels()[name].type = Imf::FLOAT;
