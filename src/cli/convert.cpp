@@ -61,7 +61,7 @@ void add_convert(const Command& app, int& exit) {
   add_channel_options(command, a->channels);
   add_channel_map_option(command, a->channels);
   command.option("--bands", a->bands, "BANDS", kBandsGroup,
-                 "FIRST:LAST:STEP or centres in nm, as averages of the image's own bands");
+                 "FIRST:LAST:STEP (outer edges, width) or centres in nm: averages of the image's bands");
   command.option("--scale", a->scale, "FACTOR", kBandsGroup,
                  "Multiply every spectral sample; 0.01 for percent");
   command.option("--units", a->units, "TEXT", kBandsGroup,

@@ -18,6 +18,7 @@ enum class Quantities { kReflectance, kIlluminant, kBoth };
 
 constexpr Choice<Quantities> kQuantities[] = {{"reflectance", Quantities::kReflectance},
                                               {"illuminant", Quantities::kIlluminant},
+                                              {"emission", Quantities::kIlluminant},
                                               {"both", Quantities::kBoth}};
 constexpr Choice<Target> kProjectTargets[] = {{"srgb", {ColorTarget::kSrgb}},
                                               {"xyz", {ColorTarget::kXyz}},

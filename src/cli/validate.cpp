@@ -60,7 +60,8 @@ int run_validate(const ValidateArguments& a) {
 
 void add_validate(const Command& app, int& exit) {
   const auto [command, a] = add_subcommand(
-      app, "validate", "Check spectral images against the spectral layout", run_validate, exit);
+      app, "validate", "Check images against the spectral layout; exit code 1 where one breaks it",
+      run_validate, exit);
   command.positional("FILES", a->inputs, "OpenEXR images").required();
   add_common(command, a->common, "spectile validate render-s.exr");
 }

@@ -40,7 +40,7 @@ void add_batch_options(const Command& command, BatchOptions& options) {
                  "Convert only these pixels, both corners included");
   command.flag("-u,--update", options.update, kManyGroup, "Pass over outputs that are up to date");
   command.option("--shard", options.shard, "I/N", kManyGroup,
-                 "Convert the I-th of N shards, from 0; the task's in a Slurm array; none: all");
+                 "Convert shard I of N, I from 0; the task's in a Slurm array; none: all");
   command.output_file("--manifest", options.manifest, kManyGroup,
                       "Append one line of JSON per input to this file");
 }

@@ -10,7 +10,8 @@ namespace {
 
 constexpr Choice<Quantity> kQuantities[] = {{"reflectance", Quantity::kReflectance},
                                             {"unbounded", Quantity::kUnbounded},
-                                            {"illuminant", Quantity::kIlluminant}};
+                                            {"illuminant", Quantity::kIlluminant},
+                                            {"emission", Quantity::kIlluminant}};
 constexpr Choice<NegativeInput> kNegatives[] = {{"gamut", NegativeInput::kGamut},
                                                 {"clip", NegativeInput::kClip},
                                                 {"keep", NegativeInput::kKeep},
@@ -65,7 +66,7 @@ void add_method_options(const Command& command, MethodArguments& a) {
                  "Colours the method cannot make: clip, keep or error; clip by default");
   command
       .option("--bands", a.bands, "BANDS", kBandsGroup,
-              "FIRST:LAST:STEP or a list of centres in nm, or a plan (plan.json)")
+              "FIRST:LAST:STEP (outer edges, width), or centres in nm, or a plan.json")
       .show_default();
 }
 

@@ -33,8 +33,9 @@ void add_ends_option(const Command& command, std::optional<Ends>& ends, const ch
 
 void add_unit_options(const Command& command, SpectrumArguments& a) {
   command.choice("--wavelengths", a.wavelengths, kWavelengthUnits, kTablesGroup,
-                 "Unit of wavelengths; by default as headings or numbers say");
-  command.option("--missing", a.missing, "VALUE", kTablesGroup, "Value that marks missing samples: -1.23e34");
+                 "nm, um, m, angstrom or cm-1; by default as headings or numbers say");
+  command.option("--missing", a.missing, "VALUE", kTablesGroup,
+                 "Value that marks missing samples, such as -1.23e34");
 }
 
 void add_values_option(const Command& command, SpectrumArguments& a) {

@@ -58,6 +58,7 @@ constexpr std::string_view kWavenumbers[] = {"cm-1",
                                              "wavenumber",
                                              "cm\xE2\x88\x92\xC2\xB9"};
 constexpr std::string_view kUnreadUnits[] = {"ev", "mev", "hz", "ghz", "thz", "mm", "pm"};
+constexpr std::string_view kWavelengthWords[] = {"wavelength", "wavelengths", "lambda", "\xCE\xBB", "wl"};
 constexpr std::string_view kWordEnds = " \t,;:()[]{}<>=_\"'";
 
 }  // namespace
@@ -73,11 +74,20 @@ std::optional<NamedUnit> unit_of_heading(std::string_view heading) {
   for (const std::string_view word : kWavenumbers) {
     if (text.find(word) != std::string::npos) add(WavelengthUnit::kPerCm, {});
   }
+  std::string_view before;
   for (std::size_t at = 0; at < text.size();) {
     at = text.find_first_not_of(kWordEnds, at);
     if (at == std::string::npos) break;
     const std::size_t end = std::min(text.find_first_of(kWordEnds, at), text.size());
-    const std::string_view word = std::string_view(text).substr(at, end - at);
+    std::string_view word = std::string_view(text).substr(at, end - at);
+    // "wavelength /um" and "lambda/nm", as ISO 80000 divides quantities by units; never "W/nm".
+    const std::size_t slash = word.rfind('/');
+    if (slash != std::string_view::npos &&
+        std::ranges::find(kWavelengthWords, slash == 0 ? before : word.substr(0, slash)) !=
+            std::end(kWavelengthWords)) {
+      word.remove_prefix(slash + 1);
+    }
+    before = word;
     const bool bracketed = at > 0 && (text[at - 1] == '(' || text[at - 1] == '[');
     for (const UnitWord& known : kUnitWords) {
       if (word == known.word) add(known.unit, {});

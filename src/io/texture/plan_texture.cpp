@@ -133,7 +133,13 @@ Result<Census> census_of(const std::string& path, const Upsampler& upsampler, co
                   io::RgbSource::open(path, options.channels, tiles::thread_count(options.threads),
                                       options.region, options.input_space));
   io::RgbSource& source = *opened;
-  if (notes != nullptr) *notes = source.notes();
+  if (notes != nullptr) {
+    *notes = source.notes();
+    if (source.alpha()) {
+      notes->push_back(
+          fmt::format("{}: colours are planned for as they are stored, whatever their alpha", path));
+    }
+  }
   const io::ColorStage stage(source, upsampler, options, *kernels);
   SPECTILE_ASSIGN(auto line, io::ColorLine::create(source.width()));
   Census census;

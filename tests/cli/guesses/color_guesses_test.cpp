@@ -149,6 +149,18 @@ TEST_F(ColorGuesses, OfAlphaAreSaidWhereTheyMatter) {
   };
   expect_said({"light above alpha", flame, {"16 pixels are brighter than alpha"}, {"--method", "sigmoid"}},
               first(3));
+  expect_said({"planned", with_alpha, {"planned for as they are stored, whatever their alpha"}},
+              {all().back()});
+  const auto stated = [] {
+    Picture picture = constant({"R", "G", "B"});
+    picture.header.insert("colorInteropID", Imf::StringAttribute("lin_ap1_scene"));
+    return picture;
+  };
+  expect_said({"stated",
+               stated,
+               {"taken as linear Rec.2020, as --input-space states; the file says ACEScg"},
+               {"--input-space", "rec2020"}},
+              all());
   expect_said({"mask", with_alpha, {"4 pixels of alpha 0 with a colour"}, {"--mask", "alpha"}}, first(1));
   const std::string mask = folder_ / "mask.exr";
   Picture rgba = constant({"R", "G", "B", "A"}, 1);

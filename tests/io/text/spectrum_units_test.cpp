@@ -23,9 +23,9 @@ SpectrumFileOptions reflectances() {
 }
 
 TEST_F(SpectrumUnits, HeadingsNameThem) {
-  for (const char* heading :
-       {"Wavelength (micrometers),Power", "wavelength_um,value", "\xC2\xB5m,W", "# wavelength in microns",
-        "X Units: Wavelength (micrometers)", "lambda [um],E"}) {
+  for (const char* heading : {"Wavelength (micrometers),Power", "wavelength_um,value", "\xC2\xB5m,W",
+                              "# wavelength in microns", "X Units: Wavelength (micrometers)", "lambda [um],E",
+                              "Wavelength /um,W/m2/nm", "\xCE\xBB/\xC2\xB5m;E"}) {
     expect_lamp(std::string(heading) + "\n" + scaled(1e-3), "wavelengths in um, as its heading says");
   }
   for (const char* heading : {"Wavelength (m),E", "wavelength [metres];E"}) {

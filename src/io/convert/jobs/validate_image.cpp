@@ -105,7 +105,9 @@ Result<std::vector<LayoutFinding>> validate(const std::string& path, int threads
     }
   }
   if (!spectral)
-    out.push_back({"channels", "no spectral channels, such as T.500,000000nm or S0.500,000000nm"});
+    out.push_back({"channels",
+                   "no spectral channels, such as T.500,000000nm or S0.500,000000nm (of coefficients, "
+                   "expanding makes spectra)"});
   return out;
 }
 

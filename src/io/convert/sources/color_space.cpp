@@ -122,6 +122,11 @@ Result<RgbSpace> input_space_of(const PartHeader& header, const std::string& pat
   if (stated) {
     if (stated->name == "srgb")
       notes.emplace_back("input space srgb is taken as linear Rec.709 (lin_rec709)");
+    if (const auto declared = color_space_of(header, path);
+        states_color_space(header) && declared && !same(declared->chromaticities, stated->chromaticities)) {
+      notes.push_back(fmt::format("taken as {}, as --input-space states; the file says {}",
+                                  stated->description, declared->description));
+    }
     return *stated;
   }
   if (!states_color_space(header)) notes.emplace_back(kAssumedSpaceNote);
