@@ -1,4 +1,5 @@
 // spectile project: spectral images to colour.
+#include <fmt/format.h>
 
 #include "src/cli/commands.hpp"
 #include "src/cli/jobs.hpp"

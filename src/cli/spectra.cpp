@@ -188,6 +188,7 @@ void print_drawing(const Shown& s) {
   const double first = s.wavelengths_nm.front();
   const double width = (s.wavelengths_nm.back() - first) / kColumns;
   std::vector<double> columns;
+  columns.reserve(kColumns);
   for (int i = 0; i < kColumns; ++i) {
     columns.push_back(s.spectrum.integral(first + i * width, first + (i + 1) * width) / width);
   }

@@ -70,7 +70,7 @@ struct Entry {
 };
 
 constexpr Entry kEntries[] = {
-    {"scalar", [] { return true; }, [] { return &reference::kernel_table; }},
+    {"scalar", [] { return true; }, [] { return &reference::kKernelTable; }},
 #if defined(__x86_64__)
     {"sse4.2", runs_sse42, joined<kernels::sse42::families>},
     {"avx2", runs_avx2, joined<kernels::avx2::families>},

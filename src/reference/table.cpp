@@ -5,7 +5,7 @@
 
 namespace spectile::reference {
 
-const kernels::KernelTable kernel_table = {
+const kernels::KernelTable kKernelTable = {
     {
         .add = add,
         .subtract = subtract,

@@ -5,6 +5,6 @@
 
 namespace spectile::reference {
 
-extern const kernels::KernelTable kernel_table;
+extern const kernels::KernelTable kKernelTable;
 
 }  // namespace spectile::reference

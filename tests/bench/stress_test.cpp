@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(EveryTable, Stress, testing::Values("scalar", "sse4.2",
                          [](const auto& one) { return test_name(one.param); });
 
 TEST(StressOfNumbers, TheRestStaysWithinItsBounds) {
-  const auto found = measure::stress_others(settings_for(reference::kernel_table));
+  const auto found = measure::stress_others(settings_for(reference::kKernelTable));
   ASSERT_TRUE(found) << found.error().message;
   std::set<std::string> names;
   for (const StressResult& r : *found) {
@@ -67,7 +67,7 @@ void add_off_by_two_steps(float* dst, const float* a, const float* b, std::size_
 }
 
 void exp_without_denormals(float* dst, const float* a, std::size_t n) noexcept {
-  reference::kernel_table.exp(dst, a, n);
+  reference::kKernelTable.exp(dst, a, n);
   for (std::size_t i = 0; i < n; ++i) dst[i] = dst[i] < 0x1p-126F ? 0.0F : dst[i];
 }
 
@@ -77,7 +77,7 @@ void clamp_that_loses_nan(float* dst, const float* a, float lo, float hi, std::s
 
 void minimum_that_keeps_nan(float* dst, const float* spectra, std::size_t bands,
                             std::size_t blocks) noexcept {
-  reference::kernel_table.minimum(dst, spectra, bands, blocks);
+  reference::kKernelTable.minimum(dst, spectra, bands, blocks);
   for (std::size_t i = 0; i < blocks * kernels::kLanes; ++i) {
     for (std::size_t b = 0; b < bands; ++b) {
       const float s = spectra[(i / kernels::kLanes * bands + b) * kernels::kLanes + i % kernels::kLanes];
@@ -100,10 +100,10 @@ void project_without_its_last_band(float* const dst[3], const float* spectra, co
 }
 
 void half_rounded_down(std::uint16_t* dst, const float* src, std::size_t n) noexcept {
-  reference::kernel_table.float_to_half(dst, src, n);
+  reference::kKernelTable.float_to_half(dst, src, n);
   for (std::size_t i = 0; i < n; ++i) {
     float back = 0;
-    reference::kernel_table.half_to_float(&back, dst + i, 1);
+    reference::kKernelTable.half_to_float(&back, dst + i, 1);
     if (std::isfinite(back) && back > 0 && back > src[i]) --dst[i];
   }
 }
@@ -111,7 +111,7 @@ void half_rounded_down(std::uint16_t* dst, const float* src, std::size_t n) noex
 void film_add_without_rests(const kernels::FilmSums& to, const kernels::FilmGrid& grid,
                             const kernels::FilmEntries& entries, const float* quads,
                             std::size_t count) noexcept {
-  reference::kernel_table.film_add(to, grid, entries, quads, count);
+  reference::kKernelTable.film_add(to, grid, entries, quads, count);
   for (std::size_t i = 0; i < entries.count; ++i) {
     std::int64_t* const pixel =
         to.tiles[entries.tile] + to.offset + static_cast<std::size_t>(entries.address[i]) * to.limbs;
@@ -121,7 +121,7 @@ void film_add_without_rests(const kernels::FilmSums& to, const kernels::FilmGrid
 
 void film_place_one_to_the_right(const kernels::FilmPlaces& out, const kernels::FilmWindow& window,
                                  const kernels::FilmPositions& samples) noexcept {
-  reference::kernel_table.film_place(out, window, samples);
+  reference::kKernelTable.film_place(out, window, samples);
   for (std::size_t i = 0; i < samples.n; ++i) {
     if (out.address[i] >= 0 && samples.x[i] == 1.0F) ++out.address[i];
   }
@@ -129,13 +129,13 @@ void film_place_one_to_the_right(const kernels::FilmPlaces& out, const kernels::
 
 void scan_rgb_that_takes_minus_zero_for_negative(kernels::RgbScan* scan, const float* const rgb[3],
                                                  std::size_t n) noexcept {
-  reference::kernel_table.scan_rgb(scan, rgb, n);
+  reference::kKernelTable.scan_rgb(scan, rgb, n);
   for (std::size_t i = 0; i < n; ++i) scan->negative += rgb[0][i] == 0 && std::signbit(rgb[0][i]) ? 1 : 0;
 }
 
 void sigmoid_project_off_by_a_millionth(float* const dst[3], const kernels::SigmoidSpectra& spectra,
                                         const float* weights, std::size_t n) noexcept {
-  reference::kernel_table.sigmoid_project(dst, spectra, weights, n);
+  reference::kKernelTable.sigmoid_project(dst, spectra, weights, n);
   for (std::size_t i = 0; i < n; ++i) dst[1][i] *= 1.000004F;
 }
 
@@ -161,7 +161,7 @@ TEST(StressOfNumbers, FaultsAreFound) {
       {"sigmoid: sum to a colour",
        [](KernelTable& t) { t.sigmoid_project = sigmoid_project_off_by_a_millionth; }},
   };
-  KernelTable bad = reference::kernel_table;
+  KernelTable bad = reference::kKernelTable;
   for (const Fault& fault : faults) fault.put(bad);
   const auto found = measure::stress_operations(settings_for(bad));
   ASSERT_TRUE(found) << found.error().message;

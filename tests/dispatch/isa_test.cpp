@@ -20,7 +20,7 @@ class Isa : public testing::Test {
 TEST_F(Isa, ReferenceComesFirstAndIsAlwaysThere) {
   const auto tables = dispatch::available();
   ASSERT_FALSE(tables.empty());
-  EXPECT_EQ(tables.front(), &reference::kernel_table);
+  EXPECT_EQ(tables.front(), &reference::kKernelTable);
   EXPECT_EQ(available_isas().front(), "scalar");
   EXPECT_EQ(available_isas().size(), tables.size());
 }

@@ -162,7 +162,7 @@ TEST(ReferenceScan, CountsPixelsAndNotComponents) {
   rgb[2][4] = 1.0F;
   rgb[0][5] = -0.0F;
   RgbScan scan;
-  reference::kernel_table.scan_rgb(&scan, planes, kLanes);
+  reference::kKernelTable.scan_rgb(&scan, planes, kLanes);
   EXPECT_EQ(scan.nonfinite, 2U);
   EXPECT_EQ(scan.negative, 2U);
   EXPECT_EQ(scan.over_one, 1U);

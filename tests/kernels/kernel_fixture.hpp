@@ -18,11 +18,11 @@ class KernelTest : public testing::TestWithParam<const char*> {
       if (std::string(table->name) == GetParam()) k_ = table;
     }
     if (k_ == nullptr) GTEST_SKIP() << GetParam() << " does not run on this machine";
-    ASSERT_NE(k_, &reference::kernel_table);
+    ASSERT_NE(k_, &reference::kKernelTable);
     ASSERT_GT(k_->lanes, 1);
   }
   const kernels::KernelTable& k() const { return *k_; }
-  static const kernels::KernelTable& ref() { return reference::kernel_table; }
+  static const kernels::KernelTable& ref() { return reference::kKernelTable; }
 
  private:
   const kernels::KernelTable* k_ = nullptr;

@@ -156,7 +156,7 @@ TEST(ReferenceSmits, HalfRowsStayFiniteForFiniteSamples) {
   const float row[kSmitsRow] = {1, 1, 1, 1, 1, 1, 1, 0};
   std::uint16_t out = 0;
   void* rows[1] = {&out};
-  reference::kernel_table.smits_rows_half(rows, planes, {row, 1, 0.0F}, 1);
+  reference::kKernelTable.smits_rows_half(rows, planes, {row, 1, 0.0F}, 1);
   EXPECT_EQ(out, 0x7BFFU);
 }
 

@@ -35,7 +35,7 @@ double worst_exp(std::uint64_t first, std::uint64_t last, std::uint64_t step) {
     std::size_t n = 0;
     for (; n < kChunk && at <= last; at += step)
       in[n++] = std::bit_cast<float>(static_cast<std::uint32_t>(at));
-    reference::kernel_table.exp(out, in, n);
+    reference::kKernelTable.exp(out, in, n);
     for (std::size_t i = 0; i < n; ++i) {
       if (std::isnan(in[i]) != std::isnan(out[i])) return std::numeric_limits<double>::quiet_NaN();
       if (std::isnan(in[i])) continue;
@@ -54,7 +54,7 @@ double worst_pow(float y, std::uint64_t first, std::uint64_t last, std::uint64_t
     std::size_t n = 0;
     for (; n < kChunk && at <= last; at += step)
       in[n++] = std::bit_cast<float>(static_cast<std::uint32_t>(at));
-    reference::kernel_table.pow(out, in, y, n);
+    reference::kKernelTable.pow(out, in, y, n);
     for (std::size_t i = 0; i < n; ++i) {
       const double exact = std::pow(static_cast<double>(in[i]), static_cast<double>(y));
       if (std::isnan(exact) != std::isnan(out[i])) return std::numeric_limits<double>::quiet_NaN();
@@ -90,13 +90,13 @@ double worst_in_parallel(std::size_t n, F f) {
 
 float ref_exp(float x) {
   float out = 0;
-  reference::kernel_table.exp(&out, &x, 1);
+  reference::kKernelTable.exp(&out, &x, 1);
   return out;
 }
 
 float ref_pow(float x, float y) {
   float out = 0;
-  reference::kernel_table.pow(&out, &x, y, 1);
+  reference::kKernelTable.pow(&out, &x, y, 1);
   return out;
 }
 

@@ -32,6 +32,7 @@ struct DevelopArguments {
 Result<std::size_t> sensor_of(const Film& film, const std::optional<std::string>& name) {
   const auto& sensors = film.options().sensors;
   std::vector<std::string> names;
+  names.reserve(sensors.size());
   for (const NamedSensor& s : sensors) names.push_back(s.name);
   if (sensors.empty()) return Error{ErrorCode::kBadFile, "the film keeps no sensor"};
   if (!name && sensors.size() == 1) return std::size_t{0};

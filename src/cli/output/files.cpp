@@ -69,6 +69,7 @@ bool is_other_format(const std::string& path) {
 
 std::vector<NamedFile> named_files(const std::vector<std::string>& paths, const std::string& role) {
   std::vector<NamedFile> out;
+  out.reserve(paths.size());
   for (const std::string& path : paths) out.push_back({path, role});
   return out;
 }

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "src/cli/output/messages.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 namespace {

@@ -84,6 +84,7 @@ void note_left_out(const ExrInput& input, const std::vector<SpectralSet>& all,
                    std::span<const SpectralSet> chosen, std::vector<std::string>& notes) {
   // Parts with spectra are named by what they hold.
   std::vector<int> named;
+  named.reserve(all.size());
   for (const SpectralSet& set : all) named.push_back(set.part);
   note_other_parts(input, named, notes);
   std::vector<SpectralSet> rest;

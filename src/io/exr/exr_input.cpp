@@ -44,7 +44,7 @@ Result<void> check_is_exr(const std::string& path) {
   const bool folder = known && S_ISDIR(status.st_mode);
   const bool plain = known && S_ISREG(status.st_mode);
   const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
-  const Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
+  Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
   ::close(fd);
   if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
   if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);

@@ -132,7 +132,7 @@ Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampl
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};
     const float* const scales = scale != nullptr ? scale + at : nullptr;
     run(kernels, in, scales, ours);
-    run(reference::kernel_table, in, scales, expected);
+    run(reference::kKernelTable, in, scales, expected);
     compare(ours, expected, bands * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
@@ -163,7 +163,7 @@ Result<void> verify_projected(const kernels::KernelTable& kernels, const io::Spe
       table.project(dst, block, ProjectorAccess::weights(projector), bands, 1);
     };
     run(kernels, ours);
-    run(reference::kernel_table, expected);
+    run(reference::kKernelTable, expected);
     compare(ours, expected, 3 * kLanesPerBlock, report);
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       std::array<double, 3> size{};
