@@ -53,8 +53,7 @@ constexpr std::string_view kWavenumbers[] = {"cm-1",
                                              "cm^{-1}",
                                              "1/cm",
                                              "cm\xE2\x81\xBB\xC2\xB9",
-                                             "cm\xE2\x88\x92"
-                                             "1",
+                                             "cm\xE2\x88\x92\x31",
                                              "wavenumber",
                                              "cm\xE2\x88\x92\xC2\xB9"};
 constexpr std::string_view kUnreadUnits[] = {"ev", "mev", "hz", "ghz", "thz", "mm", "pm"};
