@@ -154,6 +154,25 @@ TEST_F(Interruption, InterruptEndsAWholeBatch) {
   EXPECT_THAT(left(), testing::IsEmpty());
 }
 
+TEST_F(Interruption, PlansAnswerWithinASecond) {
+  // Some 20 seconds of work, of which the signal comes at the beginning or in the middle.
+  for (const int moment : {50, 1500}) {
+    test::Tool tool({"plan", "--illuminant", "D65", "--illuminant", "A", "--illuminant", "FL11", "--count",
+                     "16", "-o", folder_ / "target/plan.json"},
+                    {});
+    ASSERT_TRUE(tool.wait_until_converting());
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment));
+    ASSERT_TRUE(tool.running());
+    const auto start = std::chrono::steady_clock::now();
+    ::kill(tool.pid(), SIGTERM);
+    const auto outcome = tool.finish(std::chrono::seconds(20));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(outcome.exit, 128 + SIGTERM) << outcome;
+    EXPECT_LT(took.count(), test::kSanitized ? 20 : 2) << moment;
+    EXPECT_THAT(left(), testing::IsEmpty());
+  }
+}
+
 TEST_F(Interruption, InterruptEndsTheDemo) {
   test::Tool tool({"demo", folder_ / "demo"}, {});
   ASSERT_TRUE(tool.wait_until_converting());
