@@ -3,12 +3,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "src/cli/options/spectrum_options.hpp"
@@ -20,6 +20,15 @@ namespace spectile::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// True if a file's last line has no end; false too for what may be written but not read.
+bool is_cut_short(const std::string& path) {
+  std::ifstream file;
+  std::error_code none;
+  if (fs::is_regular_file(path, none)) file.open(path, std::ios::binary);
+  char last = '\n';
+  return file.seekg(-1, std::ios::end) && file.get(last) && last != '\n';
+}
 
 /// A file to which each input adds a line of JSON. Several processes may share one.
 class Manifest {
@@ -34,16 +43,12 @@ class Manifest {
   /// Throws: Stop.
   void open(const std::string& path) {
     path_ = path;
-    fd_ = ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    fd_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (fd_ < 0) throw Stop(complain_write(path, errno));
     // A line that a full disk cut short stays a line of its own.
-    struct stat status {};
-    char last = '\n';
-    if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0 &&
-        ::pread(fd_, &last, 1, status.st_size - 1) == 1 && last != '\n') {
-      print_error("spectile: {}: its last line was cut short, and stays so\n", path);
-      write("\n");
-    }
+    if (!is_cut_short(path)) return;
+    print_error("spectile: {}: its last line was cut short, and stays so\n", path);
+    write("\n");
   }
 
   /// Adds a line; nothing where no file is open. Throws: Stop.
