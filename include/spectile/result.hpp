@@ -16,7 +16,7 @@ enum class ErrorCode {
   kUnavailable,    ///< A known thing that this machine or build cannot do.
   kBadFile,        ///< A file is missing, damaged, or not what was expected.
   kNonFinite,      ///< The data hold NaN or infinities and the caller asked to stop.
-  kNoSpace,        ///< The target device is full.
+  kNoSpace,        ///< A device is full or fails, or too many files are open.
   kNoPermission,   ///< The target may not be written, or the source not be read.
   kCancelled,      ///< The caller's progress function asked to stop.
   kOutOfMemory,    ///< An allocation failed.

@@ -15,6 +15,7 @@
 #include <spectile/image/convert.hpp>
 #include <spectile/image/film_file.hpp>
 #include <spectile/image/image.hpp>
+#include <spectile/image/limits.hpp>
 #include <spectile/image/plan_file.hpp>
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
@@ -40,6 +41,7 @@
 #include <spectile/spectra/observer.hpp>
 #include <spectile/spectra/spectrum.hpp>
 #include <spectile/spectra/spectrum_table.hpp>
+#include <spectile/threads.hpp>
 #include <spectile/units.hpp>
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/representation.hpp>

@@ -25,10 +25,17 @@ Error system_error(const std::string& path, const char* doing, int error_number)
     case EFBIG:
       code = ErrorCode::kNoSpace;
       break;
+    case EMFILE:
+    case ENFILE:
+    case EIO:
+      code = ErrorCode::kNoSpace;
+      break;
+    case ENOMEM:
+      code = ErrorCode::kOutOfMemory;
+      break;
     case EACCES:
     case EPERM:
     case EROFS:
-    case EIO:
       code = ErrorCode::kNoPermission;
       break;
     default:
@@ -68,6 +75,30 @@ std::string end_of_links(const std::string& path) {
   return at.string();
 }
 
+std::string folder_of(const std::string& path) {
+  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+  return parent.empty() ? std::string(1, '.') : parent.string();
+}
+
+/// Waits until the device holds what was written. Returns an errno, 0 where it does, or where the file system
+/// cannot tell.
+int synchronize(int descriptor) {
+  int done = -1;
+  do {
+    done = ::fsync(descriptor);
+  } while (done != 0 && errno == EINTR);
+  return done == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
+}
+
+/// The same of the names in a folder; 0 too for one that may not be read.
+int synchronize_folder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return errno == EACCES ? 0 : errno;
+  const int failed = synchronize(descriptor);
+  ::close(descriptor);
+  return failed;
+}
+
 }  // namespace
 
 Result<AtomicFile> AtomicFile::create(const std::string& path) {
@@ -91,8 +122,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
       std::free(resolved);
     }
   }
-  const std::filesystem::path parent = std::filesystem::path(file.target_).parent_path();
-  const std::string folder = parent.empty() ? std::string(1, '.') : parent.string();
+  const std::string folder = folder_of(file.target_);
 #ifdef O_TMPFILE
   file.fd_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
   if (file.fd_ < 0 && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL) {
@@ -159,7 +189,11 @@ Result<void> AtomicFile::write_at(const void* data, std::size_t bytes, std::uint
   return {};
 }
 
-Result<void> AtomicFile::commit() {
+Result<void> AtomicFile::commit(bool durable) {
+  const std::string folder = folder_of(target_);
+  if (const int failed = durable ? synchronize(fd_) : 0; failed != 0) {
+    return system_error(path_, "write", failed);
+  }
   if (temporary_.empty()) {
     // A nameless file gets a temporary name first: linking cannot replace what is there, renaming can.
     std::string name = temporary_name(target_);
@@ -175,6 +209,9 @@ Result<void> AtomicFile::commit() {
   if (closed != 0 && errno != EINTR) return system_error(path_, "write", errno);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) return system_error(path_, "write", errno);
   temporary_.clear();
+  if (const int failed = durable ? synchronize_folder(folder) : 0; failed != 0) {
+    return system_error(path_, "make sure of its name", failed);
+  }
   return {};
 }
 

@@ -26,8 +26,9 @@ class AtomicFile {
   /// Writes all `bytes` at `offset`. Errors: as create(), by what the system says.
   Result<void> write_at(const void* data, std::size_t bytes, std::uint64_t offset);
 
-  /// Gives the file its name, replacing what had it. Errors: as create().
-  Result<void> commit();
+  /// Gives the file its name, replacing what had it. `durable`: waits until the device holds the file and its
+  /// name, so that it is whole after a loss of power too. Errors: as create().
+  Result<void> commit(bool durable = false);
 
  private:
   AtomicFile() = default;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "src/cli/options/spectrum_options.hpp"
@@ -176,6 +177,16 @@ void check_batch_files(const Batch& batch, const std::string& manifest, std::vec
   check_files(written, read);
 }
 
+/// The result of a conversion, which may run out of memory outside of the library too.
+Result<ImageReport> converted_by(const Conversion& convert, const Job& job) {
+  Error out_of_memory{ErrorCode::kOutOfMemory, job.input + ": not enough memory"};
+  try {
+    return convert(job);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights) {
@@ -254,7 +265,7 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
       continue;
     }
     progress = progress_bar(fs::path(job.input).filename().string(), !common.quiet);
-    Result<ImageReport> report = convert(job);
+    Result<ImageReport> report = converted_by(convert, job);
     progress = nullptr;  // clears the bar
     if (!report) {
       report = with_light(report.error(), shared.plan.empty() ? job.input : shared.plan, shared.light);

@@ -5,8 +5,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "src/cli/commands.hpp"
@@ -26,8 +28,8 @@ int run(int argc, char** argv) {
   const Command app = command_line.root();
   app.footer(
       "Example:\n  spectile upsample wood.exr -o wood-spectral.exr\n"
-      "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space or no permission,\n"
-      "130 or 143 interrupted (128 and the signal's number).");
+      "Exit codes: 0 done, 1 an input that cannot be used, 2 wrong usage, 3 no space, memory or\n"
+      "permission, 130 or 143 interrupted (128 and the signal's number).");
   app.require_subcommand();
   int exit = kOk;
   add_demo(app, exit);
@@ -44,7 +46,7 @@ int run(int argc, char** argv) {
   add_film(app, exit);
   add_bench(app, exit);
   try {
-    if (const auto ended = command_line.run(argc, argv)) return *ended;
+    exit = command_line.run(argc, argv).value_or(exit);
   } catch (const Stop& stop) {
     exit = stop.exit;
   }
@@ -55,10 +57,6 @@ int run(int argc, char** argv) {
   return exit;
 }
 
-}  // namespace
-
-namespace {
-
 /// Opens descriptors 0 to 2 on /dev/null where they are closed: the next file that is opened would have their
 /// number, and what is printed would go into it.
 void open_standard_descriptors() {
@@ -67,14 +65,32 @@ void open_standard_descriptors() {
   }
 }
 
+/// Where memory ends in a place that cannot report it, such as a thread of a library.
+[[noreturn]] void terminate() noexcept {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    spectile::cli::print_error_verbatim(spectile::cli::kOutOfMemoryText);
+    std::_Exit(spectile::cli::kNoRoom);
+  } catch (const std::exception& error) {
+    spectile::cli::print_error("spectile: a fault of the tool itself: {}\n", error.what());
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(terminate);
   open_standard_descriptors();
   // A file beyond the shell's size limit is then an error like a full disk, and does not end the process.
   static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    spectile::cli::print_error_verbatim(spectile::cli::kOutOfMemoryText);
+    return spectile::cli::kNoRoom;
   } catch (const std::filesystem::filesystem_error& error) {
     spectile::cli::print_error("spectile: {}\n", error.what());
     return spectile::cli::kBadInput;

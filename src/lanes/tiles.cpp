@@ -9,7 +9,13 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
 #include <mutex>
+#include <spectile/threads.hpp>
 #include <vector>
 
 namespace spectile::tiles {
@@ -20,7 +26,84 @@ int thread_count(int requested) {
 
 namespace {
 
-/// oneTBB keeps one worker less than the cores; more threads than that, where asked for, need a word to it.
+/// The worker threads of oneTBB, made one after the other by the thread that asks for them. Left to itself
+/// oneTBB has its workers make each other, and ends the process where one of them cannot.
+class Workers {
+ public:
+  /// Sees to it that calls can run on `threads` threads, the calling one among them. Returns how many there
+  /// are.
+  int make(int threads) {
+    if (threads <= ready_.load(std::memory_order_acquire)) return threads;
+    const std::scoped_lock lock(mutex_);
+    const int ready = ready_.load(std::memory_order_relaxed);
+    // A failed attempt is not repeated: each leaves oneTBB one worker short of those it counts.
+    if (threads > ready && !failed_) {
+      failed_ = !grow(threads);
+      if (!failed_) ready_.store(threads, std::memory_order_release);
+    }
+    return std::min(threads, ready_.load(std::memory_order_relaxed));
+  }
+
+  /// True where the system refused a thread.
+  bool failed() const noexcept { return failed_; }
+
+ private:
+  /// Where workers wait for each other.
+  struct Gate {
+    std::mutex mutex;
+    std::condition_variable changed;
+    int inside = 0;
+    bool open = false;
+  };
+
+  /// Keeps every worker busy until the last one is there, so that none of them makes the next. Returns false
+  /// where the system refuses one; ready_ then counts those that were made.
+  bool grow(int threads) {
+    const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+    std::shared_ptr<Gate> gate;
+    std::vector<std::unique_ptr<tbb::task_arena>> arenas;
+    int made = 1;
+    bool refused = false;
+    try {
+      gate = std::make_shared<Gate>();
+      for (; made < threads; ++made) {
+        arenas.push_back(std::make_unique<tbb::task_arena>(2, 1));
+        arenas.back()->enqueue([gate] {
+          std::unique_lock lock(gate->mutex);
+          ++gate->inside;
+          gate->changed.notify_all();
+          gate->changed.wait(lock, [&gate] { return gate->open; });
+        });
+        std::unique_lock lock(gate->mutex);
+        // Workers that are busy elsewhere in this process exist already.
+        constexpr auto kLongest = std::chrono::milliseconds(100);
+        if (!gate->changed.wait_for(lock, kLongest, [&] { return gate->inside == made; })) break;
+      }
+    } catch (const std::exception&) {
+      refused = true;
+    }
+    if (gate) {
+      const std::scoped_lock lock(gate->mutex);
+      gate->open = true;
+      gate->changed.notify_all();
+    }
+    if (refused) ready_.store(std::max(made, ready_.load()), std::memory_order_release);
+    return !refused;
+  }
+
+  std::atomic<int> ready_ = 1;  // threads that calls can run on
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+};
+
+Workers& workers() {
+  // Never destroyed: calls of other threads may outlast any destructor.
+  static Workers* const instance = new Workers;
+  return *instance;
+}
+
+/// Threads of a call, and what oneTBB must be told for them: it keeps one worker less than the cores.
 class Allowance {
  public:
   explicit Allowance(int threads)
@@ -28,7 +111,8 @@ class Allowance {
 
  private:
   static std::size_t allowed(int threads) {
-    return static_cast<std::size_t>(std::max(threads, tbb::info::default_concurrency()));
+    return static_cast<std::size_t>(workers().failed() ? threads
+                                                       : std::max(threads, tbb::info::default_concurrency()));
   }
   tbb::global_control control_;
 };
@@ -40,8 +124,8 @@ void for_blocks(std::size_t blocks, const Execution& execution,
   const std::size_t tile = std::max<std::size_t>(1, blocks_for(execution.tile_lanes));
   const std::size_t tiles = (blocks + tile - 1) / tile;
   const auto run = [&](std::size_t t) { work(t * tile, std::min(tile, blocks - t * tile)); };
-  const int threads = thread_count(execution.threads);
-  if (threads == 1 || tiles <= 1) {
+  const int threads = tiles <= 1 ? 1 : available_threads(execution.threads);
+  if (threads == 1) {
     for (std::size_t t = 0; t < tiles; ++t) run(t);
     return;
   }
@@ -53,7 +137,7 @@ void for_blocks(std::size_t blocks, const Execution& execution,
 void ordered_pipeline(std::size_t items, int threads, const std::function<bool(std::size_t slot)>& produce,
                       const std::function<void(std::size_t slot)>& transform,
                       const std::function<void(std::size_t slot)>& consume) {
-  const int count = thread_count(threads);
+  const int count = available_threads(threads);
   if (count == 1) {
     while (produce(0)) {
       transform(0);
@@ -94,3 +178,15 @@ void ordered_pipeline(std::size_t items, int threads, const std::function<bool(s
 }
 
 }  // namespace spectile::tiles
+
+namespace spectile {
+
+int available_threads(int requested) {
+  return tiles::workers().make(tiles::thread_count(requested));
+}
+
+bool threads_refused() noexcept {
+  return tiles::workers().failed();
+}
+
+}  // namespace spectile

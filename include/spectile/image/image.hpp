@@ -104,6 +104,7 @@ struct ImageOptions {
   /// of 64 x 64 where `tile` says nothing. A level's pixel is the average of the area that it covers: of
   /// spectra, or of colours in linear light. kBadArgument for coefficients that are not linear in spectra.
   bool mipmap = false;
+  bool durable = false;  ///< wait for the device, so that no loss of power takes a file back; films always do
   ChannelChoice channels;
   ProgressFunction progress;
 };
@@ -182,7 +183,7 @@ struct ProjectImageOptions : ImageOptions {
   std::optional<Quantity> quantity;           ///< which to take where a file holds both
   Adaptation adaptation = Adaptation::kNone;  ///< of the light's white to D65; reflectances only
   std::optional<double> emission;  ///< that of the same file is added, times this; 1 in every band has Y 1
-  bool photometric = false;  ///< light in W / (m2 sr nm) becomes XYZ whose Y is cd / m2; emission only
+  bool photometric = false;        ///< light in W / (m2 sr nm) becomes XYZ whose Y is cd / m2; emission only
 };
 
 /// Work that upsample_image() saved; all zero where it was told not to skip.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "src/cli/options/nearest.hpp"
 #include "src/cli/output/messages.hpp"
@@ -155,15 +156,25 @@ Option Option::check(std::function<std::string(const std::string&)> error) const
   return *this;
 }
 
+namespace {
+
+/// What is wrong with the name of a file to read or to write.
+std::string empty_name(const std::string& name) {
+  return name.empty() ? "the name of a file is empty" : "";
+}
+
+}  // namespace
+
 template <class T>
 Option Command::positional(const char* name, T& target, const std::string& text, const char* type) const {
-  return Option(app_->add_option(name, target, text)->type_name(type));
+  return Option(app_->add_option(name, target, text)->type_name(type)).check(empty_name);
 }
 
 template <class T>
 Option Command::option(const char* flags, T& target, const char* type, const char* group,
                        const std::string& text) const {
-  return Option(app_->add_option(flags, target, text)->type_name(type)->group(group));
+  const Option added(app_->add_option(flags, target, text)->type_name(type)->group(group));
+  return type == std::string_view("FILE") ? added.check(empty_name) : added;
 }
 
 // The types of options' targets: one more is one more line.
@@ -191,11 +202,12 @@ template Option Command::positional<std::vector<std::string>>(const char*, std::
 
 Option Command::output_file(const char* flags, std::string& target, const char* group,
                             const std::string& text, const char* type) const {
-  return option(flags, target, type, group, text).check([](const std::string& name) -> std::string {
-    if (name.empty()) return "the name of a file is empty";
-    if (name == "-") return "- would be standard output, where no file is written; name a file";
-    return {};
-  });
+  return option(flags, target, type, group, text)
+      .check(empty_name)
+      .check([](const std::string& name) -> std::string {
+        if (name == "-") return "- would be standard output, where no file is written; name a file";
+        return {};
+      });
 }
 
 Option Command::flag(const char* flags, bool& target, const char* group, const std::string& text) const {

@@ -3,13 +3,21 @@
 
 #include <fmt/format.h>
 
+#include "src/cli/options/memory_limit.hpp"
 #include "src/cli/options/parse.hpp"
+#include "src/cli/output/print.hpp"
 
 namespace spectile::cli {
 
 void add_common(const Command& command, Common& common, const std::string& example) {
   command.option("--threads", common.threads, "N", kRunGroup, "Threads; 0: one per core")
       .range(0, 1024)
+      .show_default();
+  command
+      .option("--max-memory", common.max_memory_gb, "GB", kRunGroup,
+              "Most memory to take, 0 for no limit; as much as the machine has by default")
+      .not_negative();
+  command.option("--max-pixels", common.max_pixels, "N", kRunGroup, "Largest image to read; 0: any")
       .show_default();
   command.option("--isa", common.isa, "NAME", kRunGroup,
                  "scalar, sse4.2, avx2, avx512 or neon; the fastest by default");
@@ -21,8 +29,15 @@ void add_common(const Command& command, Common& common, const std::string& examp
 }
 
 void apply_common(const Common& common) {
+  limit_memory(common.max_memory_gb, common.threads);
+  set_max_pixels(common.max_pixels);
   if (!common.isa.empty()) take(force_isa(common.isa));
   take(active_isa());
+  const int threads = available_threads(common.threads);
+  if (threads_refused() && !common.quiet) {
+    print_error("spectile: the system makes only {}\n",
+                plural(static_cast<std::uint64_t>(threads), "thread"));
+  }
 }
 
 void add_channel_options(const Command& command, ChannelArguments& channels) {
@@ -54,6 +69,8 @@ void add_format_options(const Command& command, WriteOptions& options, const std
   command.option("--compression", options.compression, "NAME[:LEVEL]", kFormatGroup,
                  "none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab; " + Compression{}.description() +
                      " by default");
+  command.flag("--fsync", options.fsync, kRunGroup,
+               "Wait until the device holds the output: no loss of power can take it back");
 }
 
 void add_nonfinite_option(const Command& command, NonFinite& nonfinite, const std::string& zero) {
@@ -86,6 +103,7 @@ void apply_write_options(const WriteOptions& options, const Common& common, Imag
   out.tile_lanes = options.lanes;
   if (!options.tile.empty()) out.tile = {options.tile[0], options.tile[1]};
   out.mipmap = options.mipmap;
+  out.durable = options.fsync;
   if (options.pixel) out.pixel = *options.pixel;
   out.nonfinite = options.nonfinite;
   if (!options.compression.empty()) out.compression = take(Compression::parse(options.compression));

@@ -1,6 +1,7 @@
 // Options that several subcommands share: execution, files written, observer, adaptation, colour target.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <spectile/spectile.hpp>
 #include <string>
@@ -36,6 +37,8 @@ struct Common {
   bool json = false;
   bool quiet = false;
   bool stats = false;  ///< True if the report says what was skipped.
+  std::optional<double> max_memory_gb;
+  std::uint64_t max_pixels = kDefaultMaxPixels;
   bool shows_text() const { return !json && !quiet; }
 };
 
@@ -68,9 +71,10 @@ struct WriteOptions {
   std::size_t lanes = 65536;
   std::vector<int> tile;  ///< width and height, or none
   bool mipmap = false;
+  bool fsync = false;
 };
 
-/// Adds --depth, with its old name --pixel, and --compression.
+/// Adds --depth, with its old name --pixel, --compression and --fsync.
 void add_format_options(const Command& command, WriteOptions& options, const std::string& pixel_default);
 /// Adds --nonfinite.
 void add_nonfinite_option(const Command& command, NonFinite& nonfinite, const std::string& zero);

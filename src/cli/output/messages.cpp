@@ -36,6 +36,7 @@ int complain(const Error& error) {
   switch (error.code) {
     case ErrorCode::kNoSpace:
     case ErrorCode::kNoPermission:
+    case ErrorCode::kOutOfMemory:
       return kNoRoom;
     case ErrorCode::kUnavailable:
       return kBadUsage;

@@ -16,7 +16,7 @@ enum Exit : int {
   kOk = 0,
   kBadInput = 1,       ///< an input that cannot be used
   kBadUsage = 2,       ///< wrong usage
-  kNoRoom = 3,         ///< no space, no permission
+  kNoRoom = 3,         ///< no space, no memory, no permission; a device that fails
   kSignalBase = 128,   ///< stopped by a signal: this and its number; see interrupted_exit()
   kInterrupted = 130,  ///< by SIGINT
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -13,6 +14,8 @@ namespace spectile::cli {
 /// A text on one line that leaves the terminal as it is: control characters (below U+0020, U+007F to U+009F)
 /// and bytes that are not UTF-8 become \n, \r, \t or \xNN.
 std::string escaped(std::string_view text);
+
+inline constexpr std::string_view kOutOfMemoryText = "spectile: not enough memory\n";
 
 /// Writes a text as it is. Throws: std::system_error where standard output is full or closed.
 void print_verbatim(std::string_view text);
@@ -44,10 +47,14 @@ void print(fmt::format_string<T...> format, const T&... arguments) {
   print_verbatim(format_printable(fmt::string_view(format), arguments...));
 }
 
-/// Prints to stderr.
+/// Prints to stderr; where there is no memory for it, that there is none.
 template <class... T>
-void print_error(fmt::format_string<T...> format, const T&... arguments) {
-  print_error_verbatim(format_printable(fmt::string_view(format), arguments...));
+void print_error(fmt::format_string<T...> format, const T&... arguments) noexcept {
+  try {
+    print_error_verbatim(format_printable(fmt::string_view(format), arguments...));
+  } catch (const std::exception&) {
+    print_error_verbatim(kOutOfMemoryText);
+  }
 }
 
 }  // namespace spectile::cli

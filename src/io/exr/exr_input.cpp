@@ -5,7 +5,6 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledInputPart.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,13 +12,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <exception>
 #include <new>
+#include <spectile/image/limits.hpp>
 #include <vector>
 
 #include "src/base/atomic_file.hpp"
 #include "src/base/errors.hpp"
+#include "src/io/exr/exr_threads.hpp"
 
 namespace spectile::io {
 namespace {
@@ -57,13 +59,14 @@ Result<void> check_is_exr(const std::string& path) {
 
 }  // namespace
 
-Result<void> guarded(const std::string& path, const std::function<void()>& action) {
+Result<void> guarded(const std::string& path, const std::function<void()>& action, const char* remark) {
+  // Made beforehand: there may be no memory for it afterwards.
+  Error out_of_memory = make_error(ErrorCode::kOutOfMemory, "{}: not enough memory{}", path, remark);
   try {
     action();
     return {};
   } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kBadFile,
-                      "{}: needs more memory than there is (a damaged file may claim any size)", path);
+    return out_of_memory;
   } catch (const std::exception& error) {
     std::string text = one_line(error.what());
     // The library's messages often begin with the file's name in some form of sentence.
@@ -77,15 +80,37 @@ ExrInput::ExrInput(std::string path) : path_(std::move(path)) {}
 
 ExrInput::~ExrInput() = default;
 
+namespace {
+
+std::atomic<std::uint64_t> max_pixels = kDefaultMaxPixels;
+
+Result<void> check_pixels(const std::string& path, const std::vector<PartHeader>& parts) {
+  const std::uint64_t most = max_pixels;
+  for (const PartHeader& part : parts) {
+    const auto pixels = static_cast<std::uint64_t>(part.width()) * static_cast<std::uint64_t>(part.height());
+    if (most == 0 || pixels <= most || part.deep()) continue;
+    return make_error(ErrorCode::kBadFile, "{}: has {} x {} pixels, more than {} (--max-pixels)", path,
+                      part.width(), part.height(), most);
+  }
+  return {};
+}
+
+/// guarded(), for a file that is read.
+Result<void> guarded_read(const std::string& path, const std::function<void()>& action) {
+  return guarded(path, action, " for what it claims to hold (a damaged file may claim any size)");
+}
+
+}  // namespace
+
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
   SPECTILE_TRY(check_is_exr(path));
   std::unique_ptr<ExrInput> input(new ExrInput(path));
   SPECTILE_ASSIGN(input->identity_, identify(path));
-  SPECTILE_TRY(guarded(path, [&] {
+  SPECTILE_TRY(guarded_read(path, [&] {
     Imf::Header::setMaxImageSize(PartHeader::kMaxSide, PartHeader::kMaxSide);
     Imf::Header::setMaxTileSize(PartHeader::kMaxSide, PartHeader::kMaxSide);
     const int workers = threads > 1 ? threads : 0;
-    if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
+    set_exr_threads(workers);
     input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), workers);
     for (int part = 0; part < input->file_->parts(); ++part) {
       input->headers_.emplace_back(input->file_->header(part));
@@ -98,6 +123,7 @@ Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int th
       input->file_ = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), 0);
     }
   }));
+  SPECTILE_TRY(check_pixels(path, input->headers_));
   if (std::all_of(input->headers_.begin(), input->headers_.end(), [](const auto& h) { return h.deep(); }))
     return make_error(ErrorCode::kBadFile, "{}: holds deep images only, which are not supported", path);
   return input;
@@ -117,7 +143,7 @@ Result<void> ExrInput::unchanged() const {
 }
 
 Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, int y1) {
-  return guarded(path_, [&] {
+  return guarded_read(path_, [&] {
     Imf::InputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readPixels(y0, y1);
@@ -125,7 +151,7 @@ Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, in
 }
 
 Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
-  return guarded(path_, [&] {
+  return guarded_read(path_, [&] {
     Imf::TiledInputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readTiles(x0, x1, row, row);
@@ -133,7 +159,7 @@ Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int 
 }
 
 Result<void> ExrInput::read_last(int part) {
-  return guarded(path_, [&] {
+  return guarded_read(path_, [&] {
     // A channel that there is not; lines and tiles are decoded all the same.
     std::vector<float> samples;
     Imf::FrameBuffer target;
@@ -164,3 +190,11 @@ Result<void> ExrInput::read_last(int part) {
 }
 
 }  // namespace spectile::io
+
+namespace spectile {
+
+void set_max_pixels(std::uint64_t pixels) {
+  io::max_pixels = pixels;
+}
+
+}  // namespace spectile

@@ -15,8 +15,9 @@
 
 namespace spectile::io {
 
-/// Runs `action`; an exception becomes an Error that names `path`.
-Result<void> guarded(const std::string& path, const std::function<void()>& action);
+/// Runs `action`; an exception becomes an Error that names `path`: kOutOfMemory, with a remark on it, or
+/// kBadFile.
+Result<void> guarded(const std::string& path, const std::function<void()>& action, const char* remark = "");
 
 /// Walks over the attributes of every part's header of an open OpenEXR file. OpenEXR takes memory for the
 /// size that an attribute claims, up to 2 GiB, before it finds the file to be shorter. What else may be wrong

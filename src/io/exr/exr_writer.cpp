@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfHeader.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <numeric>
@@ -45,7 +46,8 @@ namespace {
 
 // OpenEXR's last message on this thread, which is the one that gets the failed call's code. Its
 // handler may not ask the context for anything: the context is locked while it is called.
-thread_local std::string said_last;
+// No text with a destructor: a thread that cannot have one noted ends the process.
+thread_local std::array<char, 256> said_last;
 
 constexpr int kLargestTile = 4096;
 
@@ -72,8 +74,9 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path,
 }
 
 Error ExrWriter::failure(const char* doing, exr_result_t code) {
-  if (code == EXR_ERR_OUT_OF_MEMORY) return make_error(ErrorCode::kOutOfMemory, "{}: out of memory", path_);
-  std::string text = said_last.empty() ? exr_get_default_error_message(code) : said_last;
+  if (code == EXR_ERR_OUT_OF_MEMORY)
+    return make_error(ErrorCode::kOutOfMemory, "{}: not enough memory to write it", path_);
+  std::string text = said_last[0] == '\0' ? exr_get_default_error_message(code) : said_last.data();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return make_error(ErrorCode::kBadFile, "{}: cannot {}: {}", path_, doing, text);
 }
@@ -91,7 +94,11 @@ Result<void> ExrWriter::start(const std::string& path, std::span<const ImageSpec
   path_ = path;
   exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
   init.user_data = this;
-  init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* message) { said_last = message; };
+  init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* message) {
+    const std::size_t length = std::min(std::strlen(message), said_last.size() - 1);
+    std::copy_n(message, length, said_last.begin());
+    said_last[length] = '\0';
+  };
   init.write_fn = [](exr_const_context_t, void* user, const void* data, std::uint64_t bytes,
                      std::uint64_t offset, exr_stream_error_func_ptr_t) -> std::int64_t {
     auto* self = static_cast<ExrWriter*>(user);
@@ -258,13 +265,13 @@ Result<void> ExrWriter::write(int chunk, std::span<const std::byte> encoded) {
   return {};
 }
 
-Result<void> ExrWriter::commit() {
+Result<void> ExrWriter::commit(bool durable) {
   end_encoding();
   const exr_result_t code = exr_finish(&context_);
   context_ = nullptr;
   if (!io_result_) return io_result_;
   if (code != EXR_ERR_SUCCESS) return write_failure("finish", code);
-  return file_.commit();
+  return file_.commit(durable);
 }
 
 }  // namespace spectile::io

@@ -154,7 +154,9 @@ Result<FilmFileReport> save(const Film& film, const std::string& path, const std
   spec.channels = job.channels();
   spec.text_attributes = io::film_attributes(s, progress);
   spec.text_attributes.emplace_back(io::kFilmChecksum, io::film_checksum(spec.text_attributes, s));
-  SPECTILE_ASSIGN(const auto report, io::run_image_job({job, path, std::move(spec), options, {}, {}}));
+  ImageOptions durable = options;
+  durable.durable = true;
+  SPECTILE_ASSIGN(const auto report, io::run_image_job({job, path, std::move(spec), durable, {}, {}}));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return FilmFileReport{report.bytes_written, seconds.count()};
 }

@@ -82,8 +82,11 @@ class Guard : public nlohmann::json_sax<Json> {
   bool string(string_t& /*value*/) override { return value(); }
   bool binary(binary_t& /*value*/) override { return value(); }
   bool start_object(std::size_t /*elements*/) override { return open(); }
-  bool key(string_t& /*name*/) override {
-    if (++keys_.back() > kMaxKeys) throw Refused(fmt::format("has an object of more than {} keys", kMaxKeys));
+  bool key(string_t& name) override {
+    if (keys_.back().size() == kMaxKeys)
+      throw Refused(fmt::format("has an object of more than {} keys", kMaxKeys));
+    if (!keys_.back().insert(name).second)
+      throw Refused(fmt::format("has the key \"{}\" twice in one object", name));
     return true;
   }
   bool end_object() override { return close(); }
@@ -102,14 +105,15 @@ class Guard : public nlohmann::json_sax<Json> {
   }
   bool open() {
     if (keys_.size() > kDeepest) throw Refused(fmt::format("is nested more than {} deep", kDeepest));
-    keys_.push_back(0);
+    keys_.emplace_back();
     return value();
   }
   bool close() {
     keys_.pop_back();
     return true;
   }
-  std::vector<std::size_t> keys_ = {};  // of each object or list that is open
+  std::vector<std::set<std::string>> keys_ =
+      std::vector<std::set<std::string>>(1);  // of each object or list that is open
   std::size_t values_ = 0;
 };
 

@@ -134,7 +134,8 @@ class Run {
         ahead_.valid() ? ahead_.get() : job_.read(first, std::min(strip_lines_, writer_.height() - first));
     const int after = first + strip_lines_;
     if (strip && read_ahead_ && after < writer_.height()) {
-      ahead_ = std::async(std::launch::async, [this, after] {
+      // Deferred where the system makes no thread.
+      ahead_ = std::async(std::launch::async | std::launch::deferred, [this, after] {
         return job_.read(after, std::min(strip_lines_, writer_.height() - after));
       });
     }

@@ -150,7 +150,7 @@ Result<ImageReport> run_fitted(ImageJob image) {
                       fmt::join(nearest, ", "), nearest.size() == 1 ? "names" : "name"));
     }
   }
-  SPECTILE_TRY(writer.commit());
+  SPECTILE_TRY(writer.commit(options.durable));
   ImageReport report = std::move(image.report);
   if (image.remark) image.remark(stats, report.notes);
   report.width = writer.size(0).width;

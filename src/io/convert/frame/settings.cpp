@@ -107,9 +107,9 @@ class Line {
 
   Line& add(const ImageOptions& options) {
     // An option that is added there has to be looked at here: this no longer compiles then. Threads,
-    // lanes, skipping and progress change no bit.
-    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, channels,
-                 progress] = options;
+    // lanes, skipping, durability and progress change no bit.
+    const auto& [pixel, compression, nonfinite, region, threads, tile_lanes, skip, tile, mipmap, durable,
+                 channels, progress] = options;
     add("pixel", to_string(pixel));
     add("compression", compression.description());
     add("nonfinite", nonfinite == NonFinite::kZero ? "zero" : "stop");
