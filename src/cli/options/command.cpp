@@ -158,7 +158,7 @@ Option Option::check(std::function<std::string(const std::string&)> error) const
 
 namespace {
 
-/// What is wrong with the name of a file to read or to write.
+/// The error of a file's name, to read or to write.
 std::string empty_name(const std::string& name) {
   return name.empty() ? "the name of a file is empty" : "";
 }
@@ -167,7 +167,8 @@ std::string empty_name(const std::string& name) {
 
 template <class T>
 Option Command::positional(const char* name, T& target, const std::string& text, const char* type) const {
-  return Option(app_->add_option(name, target, text)->type_name(type)).check(empty_name);
+  const Option added(app_->add_option(name, target, text)->type_name(type));
+  return type == std::string_view("FILE") ? added.check(empty_name) : added;
 }
 
 template <class T>

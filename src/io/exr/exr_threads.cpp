@@ -117,8 +117,8 @@ void set_exr_threads(int threads) {
   threads = std::min(threads, most);
   IlmThread::ThreadPool& pool = IlmThread::ThreadPool::globalThreadPool();
   if (pool.numThreads() == threads) return;
-  // The pool deletes its provider.
-  pool.setThreadProvider(threads > 0 ? new Pool(threads) : nullptr);
+  // OpenEXR deletes it. A pool of none, since OpenEXR 3.1 looks for threads in one that is not there.
+  pool.setThreadProvider(new Pool(threads));
   if (pool.numThreads() < threads) most = pool.numThreads();
 }
 

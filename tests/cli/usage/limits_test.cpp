@@ -1,4 +1,4 @@
-// What the tool does where memory, open files or pixels are limited, by the user or by the system.
+// Memory, open files and pixels limited by the user or by the system: the tool says so and leaves nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
