@@ -65,7 +65,7 @@ TEST_F(Limits, FewerThreadsWhereStacksDoNotFit) {
   if (test::kSanitized) GTEST_SKIP() << "a sanitizer's own memory is beyond any limit";
   int done = 0;
   int fewer = 0;
-  for (rlim_t mib = 60; mib <= 700; mib += 40) {
+  for (rlim_t mib = 60; mib <= 6000; mib += mib < 700 ? 40 : 2600) {
     test::Tool::Options options;
     options.before = [mib] { return test::limit_memory(mib << 20U); };
     test::Tool tool(upsample({"--threads", "12"}), options);
