@@ -34,12 +34,12 @@ void multiply(float* dst, const float* a, const float* b, std::size_t n) noexcep
 }
 
 void divide(float* dst, const float* a, const float* b, std::size_t n) noexcept {
-  map2(dst, a, b, n, [](F32 x, F32 y) { return x / y; });
+  map2(dst, a, b, n, [](F32 x, F32 y) { return divide(x, y); });
 }
 
 void divide_or_zero(float* dst, const float* a, const float* b, std::size_t n) noexcept {
   const F32 zero(0.0F);
-  map2(dst, a, b, n, [zero](F32 x, F32 y) { return xsimd::select(y == zero, zero, x / y); });
+  map2(dst, a, b, n, [zero](F32 x, F32 y) { return xsimd::select(y == zero, zero, divide(x, y)); });
 }
 
 void negate(float* dst, const float* a, std::size_t n) noexcept {
@@ -63,7 +63,7 @@ void lerp(float* dst, const float* a, const float* b, float t, std::size_t n) no
 }
 
 void sqrt(float* dst, const float* a, std::size_t n) noexcept {
-  map1(dst, a, n, [](F32 x) { return xsimd::sqrt(x); });
+  map1(dst, a, n, [](F32 x) { return square_root(x); });
 }
 
 void clamp(float* dst, const float* a, float lo, float hi, std::size_t n) noexcept {

@@ -57,7 +57,7 @@ class Weighing {
   void put(std::size_t i, F32 color) noexcept {
     if (clamps_) {
       const F32 most = max_of_three(xsimd::abs(color));
-      color = xsimd::select(most > maximum_, (color / most) * maximum_, color);
+      color = xsimd::select(most > maximum_, divide(color, most) * maximum_, color);
     }
     if (kScan && luminance_) put_luminance(i, color);
     F32 weighed = xsimd::select(quad_weights(), F32(1.0F), color);
@@ -137,7 +137,7 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmSamp
     for (std::size_t k = 0; k < count; ++k) {
       const F32 lambda = load_any(samples.lambda_nm[k] + i);
       const F32 pdf = load_any(samples.density[k] + i);
-      const F32 weighted = xsimd::select(pdf == zero, zero, load_any(samples.radiance[k] + i) / pdf);
+      const F32 weighted = xsimd::select(pdf == zero, zero, divide(load_any(samples.radiance[k] + i), pdf));
       const F32 t = lambda - F32(curves.first_nm);
       const Mask inside = (t >= zero) & (t <= intervals);
       const F32 safe = xsimd::select(inside, t, zero);
@@ -320,9 +320,9 @@ void film_hits(const FilmHits& out, const FilmSamples& given, const BucketTable&
     for (std::size_t k = 0; k < samples.count; ++k) {
       const F32 pdf = load_any(samples.density[k] + i);
       const Mask dead = pdf == zero;
-      const F32 u = w * (F32(reference) / pdf);
+      const F32 u = w * divide(F32(reference), pdf);
       F32 radiant = load_any(samples.radiance[k] + i);
-      if (clamps) radiant = xsimd::select(most > maximum, (radiant / most) * maximum, radiant);
+      if (clamps) radiant = xsimd::select(most > maximum, divide(radiant, most) * maximum, radiant);
       const F32 value = radiant * u;
       const I32 bucket = find_band(table, load_any(samples.lambda_nm[k] + i));
       bits_as<std::int32_t>(xsimd::select(dead, bits_as<float>(I32(-1)), bits_as<float>(bucket)))

@@ -30,8 +30,8 @@ void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float
       F32 part = one;
       for (const F32& value : v) {
         // The part of the way from grey at which this component reaches the side that it is beyond.
-        const F32 to_low = (y - low) / (y - value);
-        const F32 to_high = (high - y) / (value - y);
+        const F32 to_low = divide(y - low, y - value);
+        const F32 to_high = divide(high - y, value - y);
         const F32 allowed = xsimd::select(value < low, to_low, xsimd::select(high < value, to_high, one));
         part = xsimd::select(allowed < part, allowed, part);
       }

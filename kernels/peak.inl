@@ -76,7 +76,7 @@ void peak_fused(float* dst, const float* src, float m, float a, std::size_t step
 
 void peak_divide(float* dst, const float* src, float m, std::size_t steps, std::size_t n) noexcept {
   const F32 dividend(m);
-  iterate(dst, src, steps, n, [=](F32 x) { return dividend / x; });
+  iterate(dst, src, steps, n, [=](F32 x) { return divide(dividend, x); });
 }
 
 }  // namespace

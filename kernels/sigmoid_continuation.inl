@@ -59,7 +59,7 @@ inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& tab
     const Mask moves = ~back & (onward | better);
     ahead = xsimd::select(onward, ahead + ahead, xsimd::select(back, ahead * quarter, ahead));
     active = active & ~(back & (ahead < line.shortest));
-    next = xsimd::select(onward | back, xsimd::min(one, part + ahead), next);
+    next = xsimd::select(onward | back, min(one, part + ahead), next);
     tries = xsimd::select(onward | back, zero, tries);
     goal_at(line, next, goal);
     const Residual further = residual(sums, goal);
@@ -71,7 +71,7 @@ inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& tab
       step.c[k] = xsimd::select(back, zero, xsimd::select(moves, newton.c[k], step.c[k]));
     }
     before = xsimd::select(back, infinity, xsimd::select(moves, left.size, before));
-    const F32 longer = xsimd::select(onward, one, xsimd::min(one, length + length));
+    const F32 longer = xsimd::select(onward, one, min(one, length + length));
     length = xsimd::select(back, one, xsimd::select(moves, longer, length * quarter));
   }
   return part;
@@ -96,9 +96,8 @@ void sigmoid_continuation(float* const c[3], float* part, const float* const rgb
     for (std::size_t k = 0; k < 3; ++k) {
       line.direction[k] = xsimd::select(bright, one - v[k], v[k]) - line.grey;
     }
-    line.near = xsimd::max(F32(kSigmoidRounding), line.grey * F32(kContinuationNear));
-    line.met =
-        xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), line.grey * F32(kSigmoidMet)));
+    line.near = max(F32(kSigmoidRounding), line.grey * F32(kContinuationNear));
+    line.met = max(F32(kSigmoidRounding), min(F32(kSigmoidUnsolved), line.grey * F32(kSigmoidMet)));
     Mask inside = finite;
     for (const F32& value : v) inside = inside & (value >= zero) & (value <= one);
     const auto effort = [inside](float within, float beyond) {
@@ -107,8 +106,8 @@ void sigmoid_continuation(float* const c[3], float* part, const float* const rgb
     line.shortest = effort(kContinuationInside.shortest, kContinuationOutside.shortest);
     line.damped = effort(kContinuationInside.damped, kContinuationOutside.damped);
     line.tries = effort(kContinuationInside.tries, kContinuationOutside.tries);
-    line.steep = F32(kSigmoidSteep) / xsimd::sqrt(line.grey);
-    Coefficients a = {{zero, zero, (line.grey - half) / xsimd::sqrt(line.grey * (one - line.grey))}};
+    line.steep = divide(F32(kSigmoidSteep), square_root(line.grey));
+    Coefficients a = {{zero, zero, divide(line.grey - half, square_root(line.grey * (one - line.grey)))}};
     const F32 solved = follow(a, line, table, lit);
     a.c[2] = xsimd::select(lit, a.c[2], F32(-kSigmoidFar));
     for (std::size_t k = 0; k < 3; ++k) {

@@ -79,7 +79,7 @@ inline Coefficients newton_step(const SigmoidSums& sums, const Residual& left) n
   cross(c, a, ca);
   cross(a, b, ab);
   const F32 determinant = fused(a[2], bc[2], fused(a[1], bc[1], a[0] * bc[0]));
-  const F32 inverse = F32(1.0F) / determinant;
+  const F32 inverse = divide(F32(1.0F), determinant);
   Coefficients step;
   for (std::size_t i = 0; i < 3; ++i) {
     step.c[i] = fused(left.r[2], ab[i], fused(left.r[1], ca[i], left.r[0] * bc[i])) * inverse;
@@ -109,9 +109,9 @@ inline Coefficients start(const F32 v[3], F32 z, const SigmoidTable& table) noex
   const F32 next = xsimd::select(first, v[1], xsimd::select(second, v[2], v[0]));
   const F32 last = xsimd::select(first, v[2], xsimd::select(second, v[0], v[1]));
   const F32 most = xsimd::select(first, F32(0.0F), xsimd::select(second, F32(1.0F), F32(2.0F)));
-  const F32 inverse = F32(1.0F) / z;
-  const F32 q[3] = {F32(1.0F) - xsimd::sqrt(F32(1.0F) - z), xsimd::sqrt(next * inverse),
-                    xsimd::sqrt(last * inverse)};
+  const F32 inverse = divide(F32(1.0F), z);
+  const F32 q[3] = {F32(1.0F) - square_root(F32(1.0F) - z), square_root(next * inverse),
+                    square_root(last * inverse)};
   const F32 steps(static_cast<float>(table.steps));
   const F32 limit = steps - F32(0.5F);
   I32 node = xsimd::to_int(most);
@@ -123,7 +123,7 @@ inline Coefficients start(const F32 v[3], F32 z, const SigmoidTable& table) noex
     node = node * I32(table.steps) + cell;
   }
   const I32 at = node * I32(static_cast<std::int32_t>(kSigmoidNode));
-  const F32 root = F32(1.0F) / xsimd::sqrt(z);
+  const F32 root = divide(F32(1.0F), square_root(z));
   Coefficients out;
   for (std::size_t k = 0; k < 3; ++k) {
     const float* const e = table.nodes + 3 + 9 * k;

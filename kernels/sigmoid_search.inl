@@ -61,15 +61,14 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
     part = xsimd::select(better, longer, part * F32(0.25F));
     active = active & (better | (part >= F32(kSigmoidShortest)));
   }
-  const F32 root = xsimd::sqrt(scale);
+  const F32 root = square_root(scale);
   for (auto& v : a.c) v = v * root;
 }
 
 /// How much too large the residual of coefficients is for colours of which z is the largest component.
 inline F32 excess(const Coefficients& a, const F32 target[3], F32 z, const SigmoidTable& table) noexcept {
   const Residual left = residual(band_sums(a, table), target);
-  return left.size -
-         xsimd::max(F32(kSigmoidRounding), xsimd::min(F32(kSigmoidUnsolved), z * F32(kSigmoidMet)));
+  return left.size - max(F32(kSigmoidRounding), min(F32(kSigmoidUnsolved), z * F32(kSigmoidMet)));
 }
 
 // Lanes solved together, so that those which need more steps can be gathered from among them.
@@ -101,15 +100,15 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
     v[k] = min(one, max(zero, target[k]));
     inside = inside & (v[k] == target[k]);
   }
-  const F32 high = xsimd::max(xsimd::max(v[0], v[1]), v[2]);
-  const F32 low = xsimd::min(xsimd::min(v[0], v[1]), v[2]);
+  const F32 high = max(max(v[0], v[1]), v[2]);
+  const F32 low = min(min(v[0], v[1]), v[2]);
   // The reflectance of 1 - colour is 1 - reflectance: only the dark half of the cube is searched.
   bright = high + low > one;
   for (std::size_t k = 0; k < 3; ++k) {
     v[k] = xsimd::select(bright, one - v[k], v[k]);
     target[k] = xsimd::select(bright, one - target[k], target[k]);
   }
-  const F32 z = xsimd::max(xsimd::max(v[0], v[1]), v[2]);
+  const F32 z = max(max(v[0], v[1]), v[2]);
   const Mask black = z < F32(kSigmoidBlack);
   const Mask grey = (v[0] == v[1]) & (v[1] == v[2]);
   F32 lit[3];
@@ -125,7 +124,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
   const Mask last = inside & near & is_last(left, step, close);
   for (std::size_t k = 0; k < 3; ++k) out.c[k] = xsimd::select(near, out.c[k] + step.c[k], out.c[k]);
   // Colours known without a search.
-  const F32 level = (lit_z - F32(0.5F)) / xsimd::sqrt(lit_z * (one - lit_z));
+  const F32 level = divide(lit_z - F32(0.5F), square_root(lit_z * (one - lit_z)));
   const Mask flat = inside & (black | grey);
   const F32 known = xsimd::select(black, F32(-kSigmoidFar), level);
   out.c[0] = xsimd::select(flat, zero, out.c[0]);
@@ -179,7 +178,7 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
     const F32 signed_z = load(batch.inside + at);
     const Mask inside = signed_z >= F32(0.0F);
     const F32 z = xsimd::abs(signed_z);
-    search.steep = xsimd::select(inside, F32(kSigmoidFar), F32(kSigmoidSteep) / xsimd::sqrt(z));
+    search.steep = xsimd::select(inside, F32(kSigmoidFar), divide(F32(kSigmoidSteep), square_root(z)));
     search.steps = xsimd::select(inside, F32(static_cast<float>(kSigmoidSteps)),
                                  F32(static_cast<float>(kSigmoidStepsOutside)));
     search.scale = one;
@@ -193,7 +192,7 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
       for (std::size_t k = 0; k < 3; ++k) {
         lit[k] = xsimd::select(brightened, search.target[k] * search.scale, F32(0.5F));
       }
-      const Coefficients first = start(lit, xsimd::max(xsimd::max(lit[0], lit[1]), lit[2]), table);
+      const Coefficients first = start(lit, max(max(lit[0], lit[1]), lit[2]), table);
       for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(brightened, first.c[k], a.c[k]);
     }
     refine(a, search, table);

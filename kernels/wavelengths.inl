@@ -80,7 +80,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
     const F32 lambda = load(lambda_nm + i);
     const Mask good = (lambda > zero) & (lambda - lambda == zero);
     const F32 l = min(F32(kPlanckLongest), xsimd::select(good, lambda, one) * F32(1.0F / kPlanckUnit));
-    const F32 inverse = one / l;
+    const F32 inverse = divide(one, l);
     const F32 x = exponent * inverse;
     const Mask live = good & (x < F32(kPlanckLimit));
     const F32 near = xsimd::select(live, x, zero);
@@ -97,7 +97,7 @@ void planck(float* dst, const float* lambda_nm, const PlanckTable& table, std::s
     const F32 second = two_to_minus(power - half);
     const F32 square = l * l;
     const F32 divisor = ((square * square) * l) * (q + (one - first * second));
-    const F32 value = ((F32(table.factor) * first) / divisor) * second;
+    const F32 value = divide(F32(table.factor) * first, divisor) * second;
     store(dst + i, or_nan(lambda, xsimd::select(live, value, zero)));
   }
 }
@@ -130,7 +130,7 @@ void sigmoid_at(float* dst, const float* lambda_nm, const SigmoidSpectrum& spect
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
-    const F32 l = (held - F32(550.0F)) / F32(150.0F);
+    const F32 l = divide(held - F32(550.0F), F32(150.0F));
     store(dst + i, or_nan(lambda, sigmoid_sample(a, l) * scale));
   }
 }
@@ -188,7 +188,7 @@ void project_wavelengths(float* const dst[3], const WavelengthRows& samples, con
       const F32 lambda = load(samples.lambda_nm[k] + i);
       const F32 pdf = load(samples.density[k] + i);
       const Mask live = differ(pdf, zero);
-      const F32 weight = load(samples.values[k] + i) / pdf;
+      const F32 weight = divide(load(samples.values[k] + i), pdf);
       const EvenPlace place = place_in(curves[0], lambda);
       for (std::size_t c = 0; c < 3; ++c) {
         const F32 value = or_nan(lambda, value_at(curves[c].pairs, place));

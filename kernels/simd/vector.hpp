@@ -121,10 +121,17 @@ inline void stream_fence() {
 #endif
 }
 
+// --- Minimum and maximum: which operand NaN and zeros of two signs give is stated here, since xsimd's own
+// differ from version to version
+
 /// v < lowest ? lowest : v. On x86 the maximum instruction does just that when v is its second operand.
 inline F32 max(F32 lowest, F32 v) {
-#if defined(__x86_64__)
-  return xsimd::max(lowest, v);
+#if defined(SPECTILE_KERNEL_AVX512)
+  return _mm512_max_ps(lowest, v);
+#elif defined(SPECTILE_KERNEL_AVX2)
+  return _mm256_max_ps(lowest, v);
+#elif defined(SPECTILE_KERNEL_SSE42)
+  return _mm_max_ps(lowest, v);
 #else
   return xsimd::select(v < lowest, lowest, v);
 #endif
@@ -132,10 +139,35 @@ inline F32 max(F32 lowest, F32 v) {
 
 /// highest < v ? highest : v.
 inline F32 min(F32 highest, F32 v) {
-#if defined(__x86_64__)
-  return xsimd::min(highest, v);
+#if defined(SPECTILE_KERNEL_AVX512)
+  return _mm512_min_ps(highest, v);
+#elif defined(SPECTILE_KERNEL_AVX2)
+  return _mm256_min_ps(highest, v);
+#elif defined(SPECTILE_KERNEL_SSE42)
+  return _mm_min_ps(highest, v);
 #else
   return xsimd::select(highest < v, highest, v);
+#endif
+}
+
+// --- Division and square root, rounded once, as IEEE 754 defines them. On 64-bit Arm xsimd 8 makes both of
+// estimates, which are the last bit off in a third of all cases
+
+inline F32 divide(F32 a, F32 b) {
+#if defined(SPECTILE_KERNEL_NEON)
+  return vdivq_f32(a, b);
+#else
+  return a /= b;
+#endif
+}
+/// Not to be used: divide() is.
+F32 operator/(F32 a, F32 b) = delete;
+
+inline F32 square_root(F32 v) {
+#if defined(SPECTILE_KERNEL_NEON)
+  return vsqrtq_f32(v);
+#else
+  return xsimd::sqrt(v);
 #endif
 }
 
