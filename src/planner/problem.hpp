@@ -2,11 +2,12 @@
 // at each.
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstdint>
 #include <functional>
 #include <spectile/plan/plan.hpp>
 #include <vector>
+
+#include "src/base/eigen.hpp"
 
 namespace spectile::plan {
 

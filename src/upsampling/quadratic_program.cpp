@@ -1,9 +1,10 @@
 // A small convex quadratic program over a box, by a primal-dual interior-point method.
 #include "src/upsampling/quadratic_program.hpp"
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+
+#include "src/base/eigen.hpp"
 
 namespace spectile {
 namespace {

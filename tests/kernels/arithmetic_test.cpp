@@ -92,9 +92,10 @@ TEST_P(Kernels, ScaleAndClampGiveTheReferencesBits) {
   }
   const float limits[][2] = {{0, 1},    {-0.0F, 0.0F}, {0.0F, -0.0F}, {0.25F, 0.25F}, {-kInf, kInf},
                              {0, kInf}, {-1, kMost},   {kInf, kInf},  {kTiny, 1}};
-  for (const auto& [lo, hi] : limits) {
-    expect_same(a.size(),
-                [&](const KernelTable& t, float* dst) { t.clamp(dst, a.data(), lo, hi, a.size()); });
+  for (const auto& limit : limits) {
+    expect_same(a.size(), [&](const KernelTable& t, float* dst) {
+      t.clamp(dst, a.data(), limit[0], limit[1], a.size());
+    });
   }
 }
 

@@ -58,13 +58,13 @@ PUBLIC_HEADERS_ONLY = {"cli", "umbrella"}
 # --- outside libraries: name, what is included, the only places that may -------------------------------------------------
 LIBRARIES = [
     ("xsimd", r"xsimd/", "kernels/simd*"),
-    ("intrinsics", r"([a-z]*mmintrin|immintrin|arm_neon)\.h", "kernels/simd*"),
+    ("intrinsics", r"([a-z]*mmintrin|immintrin|arm_neon)\.h", "kernels/simd* src/base/eigen.hpp"),
     ("oneTBB", r"(oneapi/)?tbb/", "src/lanes/tiles.cpp"),
     ("OpenEXR", r"(OpenEXR|Imath)/|Imf|Imath", "src/io/exr/* bench/exr_only.cpp"),
     ("libdeflate", r"libdeflate", "src/io/exr/encoders/zip_encoder.cpp"),
     ("xxHash", r"xxhash\.h", "src/io/film/film_checksum.cpp"),
     ("pugixml", r"pugixml", "src/io/text/spectrum_spdx.cpp"),
-    ("Eigen", r"Eigen/", "src/planner/* src/upsampling/quadratic_program.*"),
+    ("Eigen", r"Eigen/|base/eigen\.hpp", "src/base/eigen.hpp src/planner/* src/upsampling/quadratic_program.*"),
     ("CLI11", r"CLI/", "src/cli/options/command.cpp"),
     ("nlohmann-json", r"nlohmann/", "src/cli/* src/io/text/plan_json.cpp bench/report/json.cpp"),
     ("fmt", r"fmt/", "src/* bench/*"),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <iterator>
 #include <spectile/image/image.hpp>
@@ -55,7 +56,8 @@ int complain_usage(const std::string& message) {
 
 int complain_write(const std::string& path, int error) {
   print_error("spectile: {}: cannot write: {}\n", path, std::generic_category().message(error));
-  return error == EACCES || error == EPERM || error == EROFS || error == ENOSPC ? kNoRoom : kBadUsage;
+  constexpr std::array kNamesAtFault = {ENOENT, EISDIR, ENOTDIR, ENAMETOOLONG, ELOOP, EINVAL, ENXIO};
+  return std::ranges::find(kNamesAtFault, error) == kNamesAtFault.end() ? kNoRoom : kBadUsage;
 }
 
 Error with_light(Error error, const std::string& plan, const std::string& light) {

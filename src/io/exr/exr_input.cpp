@@ -1,6 +1,7 @@
 // ExrInput: an OpenEXR file open for reading, with exceptions turned into errors.
 #include "src/io/exr/exr_input.hpp"
 
+#include <OpenEXR/IexErrnoExc.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -36,6 +37,16 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The errno of an OpenEXR exception, which has one for each; 0 for those that say nothing of the system.
+int error_number_of(const Iex::ErrnoExc& error) {
+  if (dynamic_cast<const Iex::EaccesExc*>(&error) != nullptr) return EACCES;
+  if (dynamic_cast<const Iex::EmfileExc*>(&error) != nullptr) return EMFILE;
+  if (dynamic_cast<const Iex::EnfileExc*>(&error) != nullptr) return ENFILE;
+  if (dynamic_cast<const Iex::EioExc*>(&error) != nullptr) return EIO;
+  if (dynamic_cast<const Iex::EnomemExc*>(&error) != nullptr) return ENOMEM;
+  return 0;
+}
+
 Result<void> check_is_exr(const std::string& path) {
   // Not to wait for the writer of a pipe.
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -46,12 +57,14 @@ Result<void> check_is_exr(const std::string& path) {
   const bool folder = known && S_ISDIR(status.st_mode);
   const bool plain = known && S_ISREG(status.st_mode);
   const ssize_t got = plain ? ::pread(fd, magic.data(), magic.size(), 0) : 0;
+  const int failed = got < 0 ? errno : 0;
   Result<void> sizes = plain ? check_attribute_sizes(fd, path) : Result<void>();
   ::close(fd);
   if (folder) return make_error(ErrorCode::kBadFile, "{}: cannot read: is a directory", path);
   if (!plain) return make_error(ErrorCode::kBadFile, "{}: cannot read: not a plain file", path);
   // The magic number of OpenEXR files, little-endian 20000630.
   constexpr std::array<unsigned char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
+  if (failed != 0) return system_error(path, "read", failed);
   if (got == 0) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file: it is empty", path);
   if (got != 4 || magic != kMagic) return make_error(ErrorCode::kBadFile, "{}: not an OpenEXR file", path);
   return sizes;
@@ -67,6 +80,9 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
     return {};
   } catch (const std::bad_alloc&) {
     return out_of_memory;
+  } catch (const Iex::ErrnoExc& error) {
+    if (const int number = error_number_of(error); number != 0) return system_error(path, "read", number);
+    return make_error(ErrorCode::kBadFile, "{}: {}", path, one_line(error.what()));
   } catch (const std::exception& error) {
     std::string text = one_line(error.what());
     // The library's messages often begin with the file's name in some form of sentence.
