@@ -164,11 +164,12 @@ inline std::vector<nlohmann::json> json_lines(const std::string& text) {
   return out;
 }
 
-constexpr bool kSanitized =
-#if defined(__SANITIZE_ADDRESS__)
-    true;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #else
-    false;
+constexpr bool kSanitized = false;
 #endif
 
 /// Limits the address space, but under a sanitizer, which reserves most of it.

@@ -236,7 +236,7 @@ RC_GTEST_PROP(ArithmeticIdentities, FloatsComeBackFromHalfWithinHalfAStep, ()) {
     bool rises = true;
     for (std::size_t i = 0; i < values.size(); ++i) {
       // Eleven bits, the least of them 2^-24: half of that bit.
-      const double step = std::max(0x1p-24, std::ldexp(1.0, std::ilogb(values[i]) - 10));
+      const double step = std::max(0x1p-24, values[i] == 0 ? 0 : std::ldexp(1.0, std::ilogb(values[i]) - 10));
       worst.add(std::abs(double(back[i]) - values[i]), values[i] == 0 ? 0 : step / 2);
       rises = rises && (i == 0 || back[i - 1] <= back[i]);
     }
