@@ -1,4 +1,5 @@
 """Runs of the tool in a folder of their own: with a fault, a time limit, a memory limit, or a signal."""
+import atexit
 import dataclasses
 import mmap
 import os
@@ -55,8 +56,11 @@ class Tool:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # of this process, and so of those that it starts
         self.report = tempfile.NamedTemporaryFile(prefix="spectile-faults-", delete=False).name
 
+        atexit.register(self.close)
+
     def close(self):
-        os.unlink(self.report)
+        if os.path.exists(self.report):
+            os.unlink(self.report)
 
     def environment(self, fault):
         # A Slurm job's variables would change what the commands do.
