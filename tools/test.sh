@@ -8,7 +8,9 @@ if [ "${1:-}" = --all ]; then
   shift
 fi
 tools/setup.sh
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+werror=()
+[ "${CI:-}" = true ] && werror=(-DSPECTILE_WERROR=ON)
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "${werror[@]}" >/dev/null
 cmake --build build
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT

@@ -1,4 +1,5 @@
 // Spectra that a plan is fitted to beside those it is given: steep edges at any place, and smooth deviations.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>

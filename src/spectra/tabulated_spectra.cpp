@@ -1,6 +1,7 @@
 // Distributions given by numbers: constant, piecewise linear, dense.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <spectile/spectra/spectrum.hpp>
 

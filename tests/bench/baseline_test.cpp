@@ -1,6 +1,7 @@
 // The AoS baseline computes the same as the engine's operations, and its film the same as the engine's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <spectile/isa.hpp>
 
 #include "bench/baseline/film_orders.hpp"

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "bench/report/chart/chart_labels.hpp"
 #include "bench/report/chart/svg_chart.hpp"

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spectile::data {
@@ -37,7 +39,7 @@ double fourth_difference(std::span<const double> v, std::size_t lambda_nm) {
   return v[i - 2] - 4 * v[i - 1] + 6 * v[i] - 4 * v[i + 1] + v[i + 2];
 }
 
-const NamedTable& table(const std::string& name) {
+const NamedTable& table(std::string_view name) {
   for (const NamedTable& t : illuminants()) {
     if (name == t.name) return t;
   }

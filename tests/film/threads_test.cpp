@@ -1,5 +1,6 @@
 // A film in many hands: adding, developing, merging, saving and asking at once.
 #include <atomic>
+#include <cstdio>
 #include <spectile/image/film_file.hpp>
 #include <thread>
 

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <numeric>
 #include <spectile/upsampling/upsample.hpp>
+#include <type_traits>
 
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <spectile/radiometry/radiometry.hpp>
+#include <type_traits>
 
 #include "src/data/tables.hpp"
 #include "tests/support/lanes.hpp"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <spectile/spectra/named_spectra.hpp>
 
 #include "tests/support/exr_files.hpp"

@@ -1,6 +1,7 @@
 // spectile film simulate: samples of a scene whose exact values are known, into a partial film.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfIO.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 

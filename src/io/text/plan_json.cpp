@@ -1,4 +1,5 @@
 // Plans as JSON text.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>

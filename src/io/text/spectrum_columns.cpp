@@ -1,4 +1,5 @@
 // Columns, pairs, lists by name and rows of spectra, read as their layout says.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <random>

@@ -18,6 +18,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <OpenEXR/ImfVersion.h>
 
+#include <cstdint>
 #include <cstring>
 #include <string_view>
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <spectile/image/image.hpp>
 #include <spectile/image/settings.hpp>

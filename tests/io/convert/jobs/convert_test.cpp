@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDoubleNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> names_of(const Picture& picture) {
   std::vector<std::string> out;
@@ -193,7 +193,7 @@ TEST_F(ConvertImages, WrongScalesAndUnitsAreRefused) {
   Picture picture = blank(2, 2);
   picture.add("T.500nm", Imf::HALF, [](int, int) { return 1; });
   write_scanlines(in_, picture);
-  for (const double scale : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity(), 1e60, 1e-60}) {
+  for (const double scale : {0.0, -1.0, kDoubleNan, std::numeric_limits<double>::infinity(), 1e60, 1e-60}) {
     ConvertImageOptions options;
     options.scale = scale;
     EXPECT_EQ(error_of(options).code, ErrorCode::kBadArgument) << scale;
@@ -228,9 +228,9 @@ TEST_F(ConvertImages, OfOtherDepthRoundAndClamp) {
 TEST_F(ConvertImages, NonFiniteSamplesStopOrBlackenTheirPixel) {
   for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT}) {
     Picture picture = blank(70, 3);
-    picture.add("S0.500nm", type, [](int x, int y) { return x == 68 && y == 1 ? kNan : 0.5; });
+    picture.add("S0.500nm", type, [](int x, int y) { return x == 68 && y == 1 ? kDoubleNan : 0.5; });
     picture.add("S0.510nm", type, [](int, int) { return 0.25; });
-    picture.add("Z", Imf::FLOAT, [](int, int) { return kNan; });
+    picture.add("Z", Imf::FLOAT, [](int, int) { return kDoubleNan; });
     write_scanlines(in_, picture);
     const Error error = error_of();
     EXPECT_EQ(error.code, ErrorCode::kNonFinite);
