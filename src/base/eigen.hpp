@@ -38,7 +38,7 @@ inline void* malloc_or_end(std::size_t bytes) noexcept {
 
 }  // namespace spectile
 
-// Eigen has no other way to give it an allocator.
+// Eigen takes no allocator.
 namespace std {  // NOLINT(cert-dcl58-cpp)
 using spectile::malloc_or_end;
 }

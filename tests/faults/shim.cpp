@@ -2,11 +2,9 @@
 //
 //   SPECTILE_FAULT=FUNCTION:N[:ERROR|:short][:persistent]   the N-th call from main on, or all from it on
 //   SPECTILE_FAULT_PROGRAM=NAME  only in a program of this name, not in a shell that starts it
-//   SPECTILE_FAULT_REPORT=FILE   at exit: a line "FUNCTION CALLS" each, "injected COUNT", and the file of the
-//   first
-//
-// FUNCTION is a row of kKinds, with the variants of the same call. `short` does half of a read or a write.
-// Nothing here allocates: it stands below malloc.
+//   SPECTILE_FAULT_REPORT=FILE   at exit: a line "FUNCTION CALLS" each, "injected COUNT", its file
+// FUNCTION is a row of kKinds, with its variants. `short` does half of a read or a write. Nothing here allocates: it
+// stands below malloc.
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -226,15 +224,21 @@ int __libc_start_main(int (*start)(int, char**, char**), int argc, char** argv, 
   return real(counted_main, argc, argv, init, fini, loader_fini, stack_end);
 }
 
+// A process without memory may end so.
+void _exit(int status) {
+  write_report();
+  syscall(SYS_exit_group, status);
+  __builtin_unreachable();
+}
+void _Exit(int status) __attribute__((alias("_exit"), noreturn));
+
 ssize_t read(int file, void* to, size_t bytes) {
   return fails_to_move(kRead, file, &bytes) ? -1 : NEXT(read)(file, to, bytes);
 }
 ssize_t pread(int file, void* to, size_t bytes, off_t at) {
   return fails_to_move(kPread, file, &bytes) ? -1 : NEXT(pread)(file, to, bytes, at);
 }
-ssize_t pread64(int file, void* to, size_t bytes, off64_t at) {
-  return pread(file, to, bytes, at);
-}
+ssize_t pread64(int file, void* to, size_t bytes, off64_t at) __attribute__((alias("pread")));
 ssize_t write(int file, const void* from, size_t bytes) {
   return fails_to_move(kWrite, file, &bytes) ? -1 : NEXT(write)(file, from, bytes);
 }
@@ -248,9 +252,7 @@ ssize_t writev(int file, const iovec* parts, int count) {
 ssize_t pwrite(int file, const void* from, size_t bytes, off_t at) {
   return fails_to_move(kPwrite, file, &bytes) ? -1 : NEXT(pwrite)(file, from, bytes, at);
 }
-ssize_t pwrite64(int file, const void* from, size_t bytes, off64_t at) {
-  return pwrite(file, from, bytes, at);
-}
+ssize_t pwrite64(int file, const void* from, size_t bytes, off64_t at) __attribute__((alias("pwrite")));
 size_t fwrite(const void* from, size_t size, size_t count, FILE* file) {
   // Standard error is where the other faults are said.
   if (file == stderr || !fails(kFwrite, nullptr, fileno(file))) return NEXT(fwrite)(from, size, count, file);

@@ -129,8 +129,8 @@ inline Projector drawn_projector(const Bands& bands) {
 }
 
 /// An upsampler, made once for the settings.
-inline Upsampler upsampler_for(Method method, Quantity quantity, const Bands& bands,
-                               NegativeSamples negative = NegativeSamples::kClampToZero) {
+inline const Upsampler& upsampler_for(Method method, Quantity quantity, const Bands& bands,
+                                      NegativeSamples negative = NegativeSamples::kClampToZero) {
   static std::map<std::tuple<Method, Quantity, std::string, NegativeSamples>, Upsampler> made;
   const auto key = std::make_tuple(method, quantity, bands.description(), negative);
   const auto found = made.find(key);

@@ -209,6 +209,8 @@ int run_simulate(const SimulateArguments& a) {
   Run state = usage ? take_usage(std::move(started)) : take(std::move(started));
   const std::uint64_t continued = state.done;
   draw(a, scene, s, text, options, state);
+  // A checkpoint is saved to its end whatever happens; these are not.
+  options.progress = [](const Progress&) { return !interrupted(); };
   const FilmFileReport saved = take(save_film(state.film, a.output, {}, options));
   if (!a.reference.empty()) take(write_scene(scene, o, a.reference, options));
   if (!a.checkpoint.empty()) {

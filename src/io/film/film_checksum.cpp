@@ -23,7 +23,7 @@ class Hash {
   }
   std::string text() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    return fmt::format("xxh3-128 {:016x}{:016x}", hash.high64, hash.low64);
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
   }
 
  private:
@@ -38,10 +38,7 @@ class Hash {
   }
 };
 
-}  // namespace
-
-std::string film_checksum(const TextAttributes& attributes, const FilmAccess::State& state) {
-  Hash hash;
+void add_contents(const TextAttributes& attributes, const FilmAccess::State& state, Hash& hash) {
   for (const auto& [name, text] : attributes) {
     hash.add(name);
     hash.add(text);
@@ -55,7 +52,25 @@ std::string film_checksum(const TextAttributes& attributes, const FilmAccess::St
     hash.add(t);
     hash.add(limbs, count * sizeof(std::int64_t));
   }
-  return hash.text();
+}
+
+}  // namespace
+
+std::string film_checksum(const TextAttributes& attributes, const FilmAccess::State& state) {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(state.options.width));
+  hash.add(static_cast<std::uint64_t>(state.options.height));
+  add_contents(attributes, state, hash);
+  return "xxh3-128/2 " + hash.text();
+}
+
+bool has_checksum(const std::string& checksum, const TextAttributes& attributes,
+                  const FilmAccess::State& state) {
+  const std::string first = "xxh3-128 ";
+  if (!checksum.starts_with(first)) return checksum == film_checksum(attributes, state);
+  Hash hash;
+  add_contents(attributes, state, hash);
+  return checksum == first + hash.text();
 }
 
 }  // namespace spectile::io

@@ -245,7 +245,7 @@ Result<LoadedFilm> load(const std::string& path, int threads, const ProgressFunc
   for (std::size_t t = 0; t < s.tiles.size(); ++t) s.normalize_carries(t);
   if (s.overflown) return make_error(ErrorCode::kBadFile, "{}: {}", path, film_overflow(s).message);
   const auto checksum = header.text(io::kFilmChecksum);
-  if (checksum && *checksum != io::film_checksum(io::film_attributes(s, described.progress), s)) {
+  if (checksum && !io::has_checksum(*checksum, io::film_attributes(s, described.progress), s)) {
     return make_error(ErrorCode::kBadFile,
                       "{}: is damaged: its sums or options are not those of its checksum", path);
   }
