@@ -37,7 +37,7 @@ class DeflateBits {
   }
   std::uint8_t* end() const { return out_; }
   void copy(const std::uint8_t* from, std::size_t n) {
-    std::memcpy(out_, from, n);
+    if (n > 0) std::memcpy(out_, from, n);  // which takes no null pointer, not even for nothing
     out_ += n;
   }
 
