@@ -28,7 +28,7 @@ class AtomicFile {
 
   /// Gives the file its name, replacing what had it. `durable`: waits until the device holds the file and its
   /// name, so that it is whole after a loss of power too. Errors: as create().
-  Result<void> commit(bool durable = false);
+  Result<void> commit(bool durable);
 
  private:
   AtomicFile() = default;

@@ -14,7 +14,7 @@ Result<void> check_writable(const std::string& path) {
 Result<void> write_text_file(const std::string& path, std::string_view text) {
   SPECTILE_ASSIGN(auto file, io::AtomicFile::create(path));
   SPECTILE_TRY(file.write_at(text.data(), text.size(), 0));
-  return file.commit();
+  return file.commit(false);
 }
 
 }  // namespace spectile

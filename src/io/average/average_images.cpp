@@ -88,7 +88,7 @@ Result<ImageReport> average_files(std::span<const std::string> paths, const std:
     writer->begin_part(static_cast<int>(i));
     SPECTILE_TRY(run_part(parts[i], *writer, slots, options, report));
   }
-  SPECTILE_TRY(writer->commit());
+  SPECTILE_TRY(writer->commit(options.durable));
   report.bytes_written = writer->bytes_written();
   return report;
 }

@@ -117,7 +117,7 @@ class ExrWriter {
   /// Writes an encoded chunk; chunks must come in order.
   Result<void> write(int chunk, std::span<const std::byte> encoded);
   /// Completes the file and gives it its name.
-  Result<void> commit(bool durable = false);
+  Result<void> commit(bool durable);
   std::uint64_t bytes_written() const noexcept { return bytes_written_; }
 
  private:

@@ -126,10 +126,5 @@ TEST_F(Limits, EmptyNames) {
   EXPECT_TRUE(outcome.one_line()) << outcome;
 }
 
-TEST_F(Limits, WaitsForTheDevice) {
-  EXPECT_EQ(test::run_tool(upsample({"--fsync"})).exit, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out.exr"));
-}
-
 }  // namespace
 }  // namespace spectile
