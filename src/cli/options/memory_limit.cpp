@@ -5,27 +5,39 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <string>
 #include <thread>
 
 namespace spectile::cli {
 namespace {
 
-/// Bytes that the control group of this process may take, where one is limited and visible.
-std::optional<double> group_limit() {
-  for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    std::ifstream file(path);
-    double bytes = 0;
-    if (file >> bytes) return bytes;  // "max" is no number
+/// The least of `bytes` and of what a control group and those above it may take. Source: Linux, cgroups(7).
+double least_of_groups(double bytes, const std::string& root, std::filesystem::path group,
+                       const char* limit) {
+  // Within a container its own group is the root's.
+  for (bool more = true; more; group = group.parent_path()) {
+    more = group.has_relative_path();
+    std::ifstream file(root + (more ? group.string() : "") + "/" + limit);
+    double most = 0;
+    if (file >> most) bytes = std::min(bytes, most);  // "max" is no number
   }
-  return {};
+  return bytes;
 }
 
 double machine_memory() {
-  const double bytes =
+  double bytes =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  return std::min(bytes, group_limit().value_or(bytes));
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    if (line.starts_with("0::")) {
+      bytes = least_of_groups(bytes, "/sys/fs/cgroup", line.substr(3), "memory.max");
+    } else if (const std::size_t at = line.find(":memory:"); at != std::string::npos) {
+      bytes = least_of_groups(bytes, "/sys/fs/cgroup/memory", line.substr(at + 8), "memory.limit_in_bytes");
+    }
+  }
+  return bytes;
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
