@@ -1,5 +1,7 @@
 // A film's checksum: whatever bit of a file is flipped, the film that is loaded is the one that was saved, or
 // none is. Films of versions without a checksum are still loaded, and known as such.
+#include <OpenEXR/ImfStringAttribute.h>
+
 #include <random>
 #include <spectile/image/film_file.hpp>
 
@@ -66,6 +68,36 @@ TEST_F(FilmChecksums, FilmsWithoutOneAreLoadedAndKnown) {
   ASSERT_TRUE(old) << old.error().message;
   EXPECT_FALSE(old->has_checksum);
   EXPECT_TRUE(old->film.same_contents(*film_));
+}
+
+TEST_F(FilmChecksums, TheFirstKindIsStillVerified) {
+  save("zip:1");
+  // As the version before this one saved it for the same film.
+  const std::string first = "xxh3-128 23e6343a41058793630886503ebcd992";
+  Picture picture = read_picture(path_);
+  picture.header.insert("spectileFilmChecksum", Imf::StringAttribute(first));
+  write_scanlines(folder_ / "first.exr", picture);
+  const auto loaded = load_film(folder_ / "first.exr");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(loaded->has_checksum);
+  EXPECT_TRUE(loaded->film.same_contents(*film_));
+  picture.header.insert("spectileFilmChecksum",
+                        Imf::StringAttribute(first.substr(0, first.size() - 1) + "3"));
+  write_scanlines(folder_ / "first.exr", picture);
+  EXPECT_FALSE(load_film(folder_ / "first.exr"));
+}
+
+TEST_F(FilmChecksums, AnotherSizeIsRefused) {
+  save("zip:1");
+  for (const auto& [right, below] : {std::pair{31, 19}, {19, 31}}) {
+    Picture picture = read_picture(path_);
+    // Within the same tile of 32 x 32, so that the crop alone could tell.
+    picture.header.displayWindow().max = {right, below};
+    write_scanlines(folder_ / "wider.exr", picture);
+    const auto loaded = load_film(folder_ / "wider.exr");
+    ASSERT_FALSE(loaded);
+    EXPECT_THAT(loaded.error().message, testing::HasSubstr("is damaged"));
+  }
 }
 
 TEST_F(FilmChecksums, LoadingStopsOnRequest) {

@@ -234,6 +234,8 @@ TEST(PlanFile, RefusesTextBuiltToUseUpMemoryOrTime) {
   std::string keys = "{";
   for (int i = 0; i < 5000; ++i) keys += "\"" + std::to_string(i) + "\":0,";
   expect_refused(keys + "\"end\":0}", "object of more than 1024 keys");
+  expect_refused(replaced("{", "{\"wavelengths_nm\": [1], "),
+                 "has the key \"wavelengths_nm\" twice in one object");
   expect_refused(std::string((std::size_t{64} << 20U) + 1, ' '), "larger than 64 MiB");
   expect_refused(replaced("D65", std::string(1000, 'x')), "...\" has no spectrum");
 }
