@@ -4,7 +4,6 @@
 The tool must say in one line what is wrong, or take the file as it is; it must not crash, hang or take much memory. A film
 carries a checksum over its sums: a damaged one is refused, or gives the same result. Exit code 1: there are problems.
 """
-import argparse
 import collections
 import json
 import os
@@ -16,7 +15,7 @@ import time
 
 import checks
 import scenarios
-from tool import Tool, Workplace, skip_if_sanitized
+from tool import Tool, Workplace, driver_options, skip_if_sanitized
 
 MAX_MEMORY_BYTES = 2 << 30
 ADDRESSES_BYTES = 2 * MAX_MEMORY_BYTES  # so that a file that asks for all memory takes it from nobody else
@@ -152,13 +151,7 @@ def flip(tool, folder, name, commands, guarded, draw, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tool", help="the command spectile")
-    parser.add_argument("shim", help="libspectile_faults.so, unused here")
-    parser.add_argument("--runs", type=int, default=6, help="damaged files of each format (default 6)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", nargs="*", metavar="FILE")
-    parser.add_argument("--json", metavar="FILE")
+    parser = driver_options(__doc__, 6, "FILE", "damaged files of each format")
     options = parser.parse_args()
     skip_if_sanitized(options.tool)
     start = time.monotonic()

@@ -5,7 +5,6 @@ Targets are the old file or the new one, nothing else is left, the exit code is 
 command run again ends with the same bytes: checkpoints, manifests and --update go on from where they were. Then films
 that take seconds are stopped: the answer may take a second. Exit code 1: there are problems.
 """
-import argparse
 import collections
 import json
 import os
@@ -18,7 +17,7 @@ import time
 
 import checks
 import scenarios
-from tool import Tool, Workplace, read_folder, skip_if_sanitized
+from tool import Tool, Workplace, driver_options, read_folder, skip_if_sanitized
 
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 ANSWER_S = 1.0
@@ -170,14 +169,8 @@ class Report:
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tool", help="the command spectile")
-    parser.add_argument("shim", help="libspectile_faults.so")
-    parser.add_argument("--runs", type=int, default=3, help="runs of each scenario (default 3)")
+    parser = driver_options(__doc__, 3, "SCENARIO", "runs of each scenario")
     parser.add_argument("--long", type=int, default=0, help="runs of each long command (default 0)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", nargs="*", metavar="SCENARIO")
-    parser.add_argument("--json", metavar="FILE")
     options = parser.parse_args()
     skip_if_sanitized(options.tool)
     start = time.monotonic()

@@ -5,7 +5,6 @@ The calls of each function are counted in a run without a fault. Then the n-th f
 there are few, else a sample with a fixed seed. Prints a table of scenarios and functions, and each problem once, with
 the command that shows it again. Exit code 1: there are problems.
 """
-import argparse
 import collections
 import concurrent.futures
 import errno
@@ -19,7 +18,7 @@ import time
 
 import checks
 import scenarios
-from tool import Tool, Workplace, read_folder, skip_if_sanitized
+from tool import Tool, Workplace, driver_options, read_folder, skip_if_sanitized
 
 # Errors and other faults of each function that are tried; those of one line are drawn from the same calls.
 FAULTS = {
@@ -215,15 +214,9 @@ def print_problems(problems):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tool", help="the command spectile")
-    parser.add_argument("shim", help="libspectile_faults.so")
-    parser.add_argument("--runs", type=int, default=12, help="runs of each scenario at most (default 12)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", nargs="*", metavar="SCENARIO")
+    parser = driver_options(__doc__, 12, "SCENARIO", "runs of each scenario at most")
     parser.add_argument("--fault", help="only this, such as pwrite:3:ENOSPC:persistent, in each scenario")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
-    parser.add_argument("--json", metavar="FILE", help="write the table and the problems as JSON")
     parser.add_argument("--keep", metavar="FOLDER", help="keep the folders of all runs here")
     options = parser.parse_args()
     skip_if_sanitized(options.tool)

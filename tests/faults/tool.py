@@ -1,4 +1,5 @@
 """Runs of the tool in a folder of their own: with a fault, a time limit, a memory limit, or a signal."""
+import argparse
 import atexit
 import dataclasses
 import mmap
@@ -126,6 +127,18 @@ class Tool:
                 elif value.isdigit():
                     calls[name] = int(value)
         return calls, injected, file
+
+
+def driver_options(about, runs, only, runs_help="runs of each scenario"):
+    """The parser of the options that all drivers share."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tool", help="the command spectile")
+    parser.add_argument("shim", help="libspectile_faults.so")
+    parser.add_argument("--runs", type=int, default=runs, help=f"{runs_help} (default {runs})")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", nargs="*", metavar=only)
+    parser.add_argument("--json", metavar="FILE", help="write the table and the problems as JSON")
+    return parser
 
 
 class Workplace:
