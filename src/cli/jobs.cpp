@@ -261,7 +261,7 @@ int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction
       const auto bytes = fs::file_size(job.output, error);
       if (!error) entry["bytes"] = bytes;
       manifest.add(entry);
-      if (interrupted()) return interrupted_exit();
+      if (interrupted()) return complain({ErrorCode::kCancelled, "stopped on request"});
       continue;
     }
     progress = progress_bar(fs::path(job.input).filename().string(), !common.quiet);

@@ -100,15 +100,16 @@ class Tool:
     @staticmethod
     def finish(process, stop=None, time_limit_s=TIME_LIMIT_S):
         """Exit code as in Outcome, resources that were used, and whether it had to be ended."""
+        # Not Popen.send_signal(), which may take the exit code of a process that has just ended.
         pidfd = os.pidfd_open(process.pid)
         try:
             poll = select.poll()
             poll.register(pidfd, select.POLLIN)
             if stop and not poll.poll(stop[0] * 1000):
-                process.send_signal(stop[1])
+                signal.pidfd_send_signal(pidfd, stop[1])
             late = not poll.poll(time_limit_s * 1000)
             if late:
-                process.send_signal(signal.SIGKILL)
+                signal.pidfd_send_signal(pidfd, signal.SIGKILL)
         finally:
             os.close(pidfd)
         _, status, usage = os.wait4(process.pid, 0)
