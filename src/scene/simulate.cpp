@@ -86,14 +86,19 @@ Result<void> simulate(const ProceduralScene& scene, const SceneSampling& samplin
 
 namespace {
 
+Error stopped() {
+  return make_error(ErrorCode::kCancelled, "stopped on request");
+}
+
 /// The errors of a film's spectra on its bands.
 Result<void> add_spectrum_error(const ProceduralScene& scene, const Film& film, const Execution& execution,
-                                SceneError& to) {
+                                const std::function<bool()>& go_on, SceneError& to) {
   SPECTILE_ASSIGN(auto spectrum, FilmDevelopment::create(film, FilmLayer::kSpectrum));
   SPECTILE_TRY(spectrum.update(execution));
   const PixelWindow w = film.window();
   double squares = 0;
   for (int y = w.y0; y < w.y1; ++y) {
+    if (go_on && !go_on()) return stopped();
     for (int x = w.x0; x < w.x1; ++x) {
       const std::vector<double> exact = scene.spectrum(film.options(), x, y);
       for (std::size_t b = 0; b < exact.size(); ++b) {
@@ -113,7 +118,7 @@ Result<void> add_spectrum_error(const ProceduralScene& scene, const Film& film, 
 }  // namespace
 
 Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
-                                    const Execution& execution) {
+                                    const Execution& execution, const std::function<bool()>& go_on) {
   SPECTILE_ASSIGN(auto xyz, FilmDevelopment::create(film, FilmLayer::kXyz));
   if (const auto updated = xyz.update(execution); !updated) return updated.error();
   const PixelWindow w = film.window();
@@ -121,9 +126,15 @@ Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& fi
   double squares_y = 0;
   double squares = 0;
   std::mutex mutex;
+  bool ends = false;  // guarded by the mutex
   tiles::for_blocks(
       static_cast<std::size_t>(w.height()), {execution.threads, 1}, [&](std::size_t first, std::size_t n) {
         for (std::size_t row = first; row < first + n; ++row) {
+          {
+            const std::scoped_lock lock(mutex);
+            ends = ends || (go_on && !go_on());
+            if (ends) return;
+          }
           SceneError line;
           double line_y = 0;
           double line_all = 0;
@@ -152,11 +163,12 @@ Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& fi
           squares += line_all;
         }
       });
+  if (ends) return stopped();
   const double pixels = static_cast<double>(w.width()) * w.height();
   out.mean_luminance /= pixels;
   out.rms_luminance = std::sqrt(squares_y / pixels);
   out.rms_xyz = std::sqrt(squares / (3 * pixels));
-  if (film.options().spectral) SPECTILE_TRY(add_spectrum_error(scene, film, execution, out));
+  if (film.options().spectral) SPECTILE_TRY(add_spectrum_error(scene, film, execution, go_on, out));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <spectile/film/film.hpp>
 #include <spectile/lanes/wavelengths.hpp>
@@ -107,8 +108,9 @@ struct SceneError {
   std::uint64_t wrong_black = 0;   ///< that are not 0 and should be, or the other way round
 };
 
-/// Errors: those of FilmDevelopment::create() and update().
+/// `go_on` is asked some times a second, by one thread at a time; false stops with kCancelled. Errors: those
+/// of FilmDevelopment::create() and update(); kCancelled.
 Result<SceneError> simulation_error(const ProceduralScene& scene, const Film& film,
-                                    const Execution& execution = {});
+                                    const Execution& execution = {}, const std::function<bool()>& go_on = {});
 
 }  // namespace spectile

@@ -124,12 +124,17 @@ void draw(const SimulateArguments& a, const ProceduralScene& scene, const SceneS
   const auto bar = progress_bar(std::filesystem::path(a.output).filename().string(), !a.common.quiet);
   auto last_saved = Clock::now();
   const bool saves = !a.checkpoint.empty();
-  // Between looks at the clock: some tenths of a second.
-  constexpr std::uint64_t kStepsAtOnce = 64;
+  // Between looks at the clock and at signals: a tenth to a fifth of a second, whatever a step takes here.
+  constexpr auto kLeast = std::chrono::milliseconds(100);
+  std::uint64_t steps_at_once = 1;
   while (run.done < steps) {
-    const std::uint64_t count = std::min(kStepsAtOnce, steps - run.done);
+    const std::uint64_t count = std::min(steps_at_once, steps - run.done);
+    const auto begin = Clock::now();
     take(simulate(scene, s, run.film, run.done, count, {a.common.threads}));
     run.done += count;
+    const auto took = Clock::now() - begin;
+    if (took < kLeast / 2) steps_at_once *= 2;
+    if (took > 2 * kLeast) steps_at_once = std::max<std::uint64_t>(1, steps_at_once / 2);
     const bool stop = !bar({run.done, steps}) || interrupted();
     const std::chrono::duration<double> since = Clock::now() - last_saved;
     if (saves && run.done < steps && (stop || since.count() >= a.every)) {
@@ -164,7 +169,6 @@ void report(const SimulateArguments& a, const Run& run, const SceneError& error,
                        {"bytes_written", saved.bytes_written},
                        {"seconds", seconds}});
   }
-  if (a.common.quiet) return;
   print("{} -> {}: {} samples{}, {}, {:.1f} s\n", a.scene, a.output, stats.accepted,
         continued > 0 ? fmt::format(" (continued from step {})", continued) : "",
         size_text(saved.bytes_written), seconds);
@@ -217,9 +221,14 @@ int run_simulate(const SimulateArguments& a) {
     std::error_code error;  // a checkpoint that stays is of a run that is done: it does no harm
     std::filesystem::remove(a.checkpoint, error);
   }
-  const SceneError error = take(simulation_error(scene, state.film, {a.common.threads}));
+  if (a.common.quiet && !a.common.json) return kOk;
+  const auto error = simulation_error(scene, state.film, {a.common.threads}, [] { return !interrupted(); });
+  if (!error && error.error().code == ErrorCode::kCancelled) {
+    return complain(
+        {ErrorCode::kCancelled, "interrupted; " + a.output + " is written, its error not reported"});
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  report(a, state, error, saved, seconds.count(), continued);
+  report(a, state, take(error), saved, seconds.count(), continued);
   return kOk;
 }
 
