@@ -15,6 +15,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <spectile/image/limits.hpp>
@@ -116,6 +117,25 @@ Result<void> guarded_read(const std::string& path, const std::function<void()>& 
   return guarded(path, action, " for what it claims to hold (a damaged file may claim any size)");
 }
 
+// What zlib takes to decompress: its state, some 10 KiB, and a window of 32 KiB.
+constexpr std::size_t kInflateBytes = std::size_t{64} << 10;
+
+bool memory_is_left() {
+  void* volatile memory = std::malloc(kInflateBytes);  // volatile: a compiler may leave out the pair
+  std::free(memory);
+  return memory != nullptr;
+}
+
+/// guarded_read() for samples. OpenEXR says "decompression failed" of damaged data, and also where zlib gets
+/// no memory; so what fails is read once more. `action` must be repeatable.
+Result<void> read_samples(const std::string& path, const std::function<void()>& action) {
+  Result<void> read = guarded_read(path, action);
+  if (read || read.error().code != ErrorCode::kBadFile) return read;
+  read = guarded_read(path, action);
+  if (read || read.error().code != ErrorCode::kBadFile || memory_is_left()) return read;
+  return make_error(ErrorCode::kOutOfMemory, "{}: not enough memory to decompress it", path);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ExrInput>> ExrInput::open(const std::string& path, int threads) {
@@ -159,7 +179,7 @@ Result<void> ExrInput::unchanged() const {
 }
 
 Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, int y1) {
-  return guarded_read(path_, [&] {
+  return read_samples(path_, [&] {
     Imf::InputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readPixels(y0, y1);
@@ -167,7 +187,7 @@ Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, in
 }
 
 Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
-  return guarded_read(path_, [&] {
+  return read_samples(path_, [&] {
     Imf::TiledInputPart input(*file_, part);
     input.setFrameBuffer(target);
     input.readTiles(x0, x1, row, row);
@@ -175,7 +195,7 @@ Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int 
 }
 
 Result<void> ExrInput::read_last(int part) {
-  return guarded_read(path_, [&] {
+  return read_samples(path_, [&] {
     // A channel that there is not; lines and tiles are decoded all the same.
     std::vector<float> samples;
     Imf::FrameBuffer target;
