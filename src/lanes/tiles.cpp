@@ -18,6 +18,8 @@
 #include <spectile/threads.hpp>
 #include <vector>
 
+#include "src/lanes/handover.hpp"
+
 namespace spectile::tiles {
 
 int thread_count(int requested) {
@@ -130,8 +132,17 @@ void for_blocks(std::size_t blocks, const Execution& execution,
     return;
   }
   const Allowance allowance(threads);
+  Handover begin;
+  Handover end;
+  const auto run_task = [&](std::size_t t) {
+    begin.take();
+    const GiveAtEnd done(end);
+    run(t);
+  };
   tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, tiles, run, tbb::simple_partitioner{}); });
+  begin.give();
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, tiles, run_task, tbb::simple_partitioner{}); });
+  end.take();
 }
 
 void ordered_pipeline(std::size_t items, int threads, const std::function<bool(std::size_t slot)>& produce,
@@ -148,33 +159,50 @@ void ordered_pipeline(std::size_t items, int threads, const std::function<bool(s
   std::mutex mutex;
   std::vector<std::size_t> free(items);
   for (std::size_t i = 0; i < items; ++i) free[i] = items - 1 - i;
+  // The stages that run one item at a time, and the way of each item through all of them.
+  Handover producing;
+  Handover consuming;
+  std::vector<Handover> item(items);
+  const auto produce_next = [&](tbb::flow_control& control) -> std::size_t {
+    producing.take();
+    const GiveAtEnd done(producing);
+    std::size_t slot = 0;
+    {
+      const std::scoped_lock lock(mutex);
+      slot = free.back();
+      free.pop_back();
+    }
+    const GiveAtEnd produced(item[slot]);
+    if (!produce(slot)) control.stop();
+    return slot;
+  };
+  const auto transform_item = [&](std::size_t slot) {
+    item[slot].take();
+    const GiveAtEnd transformed(item[slot]);
+    transform(slot);
+    return slot;
+  };
+  const auto consume_item = [&](std::size_t slot) {
+    consuming.take();
+    const GiveAtEnd done(consuming);
+    item[slot].take();
+    consume(slot);
+    const std::scoped_lock lock(mutex);
+    free.push_back(slot);
+  };
   const Allowance allowance(count);
   tbb::task_arena arena(count);
+  producing.give();
+  consuming.give();
   arena.execute([&] {
+    using tbb::filter_mode;
     tbb::parallel_pipeline(
-        items,
-        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
-                                            [&](tbb::flow_control& control) -> std::size_t {
-                                              std::size_t slot = 0;
-                                              {
-                                                const std::scoped_lock lock(mutex);
-                                                slot = free.back();
-                                                free.pop_back();
-                                              }
-                                              if (!produce(slot)) control.stop();
-                                              return slot;
-                                            }) &
-            tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
-                                                       [&](std::size_t slot) {
-                                                         transform(slot);
-                                                         return slot;
-                                                       }) &
-            tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t slot) {
-              consume(slot);
-              const std::scoped_lock lock(mutex);
-              free.push_back(slot);
-            }));
+        items, tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, produce_next) &
+                   tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, transform_item) &
+                   tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, consume_item));
   });
+  producing.take();
+  consuming.take();
 }
 
 }  // namespace spectile::tiles

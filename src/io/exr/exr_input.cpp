@@ -117,7 +117,7 @@ Result<void> guarded_read(const std::string& path, const std::function<void()>& 
   return guarded(path, action, " for what it claims to hold (a damaged file may claim any size)");
 }
 
-// What zlib takes to decompress: its state, some 10 KiB, and a window of 32 KiB.
+// As much as zlib takes to decompress: its state, some 10 KiB, and a window of 32 KiB.
 constexpr std::size_t kInflateBytes = std::size_t{64} << 10;
 
 bool memory_is_left() {
