@@ -52,10 +52,15 @@ class Workers {
  private:
   /// Where workers wait for each other.
   struct Gate {
+    Gate() { users.give(); }
+    Gate(const Gate&) = delete;
+    Gate& operator=(const Gate&) = delete;
+    ~Gate() { users.take(); }
     std::mutex mutex;
     std::condition_variable changed;
     int inside = 0;
     bool open = false;
+    Handover users;  // as their counted references order them
   };
 
   /// Keeps every worker busy until the last one is there, so that none of them makes the next. Returns false
@@ -72,6 +77,8 @@ class Workers {
       for (; made < threads; ++made) {
         arenas.push_back(std::make_unique<tbb::task_arena>(2, 1));
         arenas.back()->enqueue([gate] {
+          gate->users.take();
+          const GiveAtEnd done(gate->users);
           std::unique_lock lock(gate->mutex);
           ++gate->inside;
           gate->changed.notify_all();
@@ -86,6 +93,7 @@ class Workers {
       refused = true;
     }
     if (gate) {
+      const GiveAtEnd done(gate->users);
       const std::scoped_lock lock(gate->mutex);
       gate->open = true;
       gate->changed.notify_all();
