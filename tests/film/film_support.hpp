@@ -89,7 +89,11 @@ inline FilmSamples random_samples(std::size_t n, std::uint32_t seed, float side 
   std::uniform_real_distribution<float> unit(0, 1);
   FilmSamples out(n);
   for (std::size_t i = 0; i < n; ++i) {
-    out.put(i, unit(random) * (side + 1) - 0.5F, unit(random) * (side + 1) - 0.5F, unit(random));
+    // One after the other: the order in which arguments are evaluated is the compiler's.
+    const float w = unit(random);
+    const float py = unit(random) * (side + 1) - 0.5F;
+    const float px = unit(random) * (side + 1) - 0.5F;
+    out.put(i, px, py, w);
     const float size = std::pow(10.0F, 9 * unit(random) - 4);
     for (std::size_t k = 0; k < FilmSamples::kCount; ++k) {
       out.lambda(k, i) = 350 + 490 * unit(random);

@@ -43,7 +43,7 @@ class Pool : public IlmThread::ThreadPoolProvider {
         return;
       }
     }
-    finish(task);
+    if (IlmThread::TaskGroup* const group = execute(task)) group->finishOneTask();
   }
 
   void finish() override { stop(); }
@@ -69,11 +69,12 @@ class Pool : public IlmThread::ThreadPoolProvider {
     }
   }
 
-  static void finish(IlmThread::Task* task) {
+  /// Returns the group that the task belonged to, or null.
+  static IlmThread::TaskGroup* execute(IlmThread::Task* task) {
     IlmThread::TaskGroup* const group = task->group();
     task->execute();
     delete task;
-    if (group != nullptr) group->finishOneTask();
+    return group;
   }
 
   void run() {
@@ -84,8 +85,11 @@ class Pool : public IlmThread::ThreadPoolProvider {
       IlmThread::Task* const task = tasks_.front();
       tasks_.pop_front();
       lock.unlock();
-      finish(task);
+      IlmThread::TaskGroup* const group = execute(task);
       lock.lock();
+      // With the lock, so that ThreadSanitizer, which does not see the group's own counter, knows that all of
+      // its tasks come before its end.
+      if (group != nullptr) group->finishOneTask();
     }
   }
 
