@@ -247,7 +247,7 @@ def compression(args):
                  for method, runs in found.items()]))
 
 
-METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid")
+METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer")
 
 
 def grid(path, side):
@@ -283,14 +283,14 @@ def methods(args):
     cube, rows = grid(args.file("gamut.exr"), args.gamut_side), []
     for space in ("srgb", "display-p3", "adobe-rgb", "rec2020", "acescg", "aces2065-1"):
         row = [space]
-        for method in ("smits-exact", "sigmoid"):
+        for method in ("smits-exact", "sigmoid", "sigmoid-observer"):
             words = ("upsample", cube, "--input-space", space, "--method", method, "--depth", "float", "--compression", "none")
             tool(args, *words, "-o", args.file("kept.exr"), "--out-of-gamut", "keep")
             outside = tool(args, *words, "-o", args.file("clipped.exr"), "--out-of-gamut", "clip")["out_of_gamut_pixels"]
             moved = [e for e in color_errors(args.file("kept.exr"), args.file("clipped.exr")) if e > 1e-4] or [0]
             row += [f"{100 - 100 * outside / args.gamut_side**3:.1f} %", f"{statistics.fmean(moved):.2f}, {max(moved):.1f}"]
         rows.append(row)
-    print(table(["input space", "`smits-exact` covers", "costs", "`sigmoid` covers", "costs"], rows))
+    print(table(["input space", *(word for m in ("smits-exact", "sigmoid", "sigmoid-observer") for word in (f"`{m}` covers", "costs"))], rows))
     lights = ("A", "FL2", "FL11", "LED-B3", "HP1")
     words = [args.tool, "bench", "--json", "-q", "--cache-only", "--threads", 1, "--illuminant", ",".join(lights)]
     for file in args.reflectances:

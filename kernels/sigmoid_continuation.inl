@@ -21,6 +21,7 @@ inline void goal_at(const GreyLine& line, F32 part, F32 goal[3]) noexcept {
 
 /// The part of the line that is solved, step by step from the grey's coefficients c; c becomes those there. A
 /// lane that is done stays as it is, so that no lane depends on its neighbours.
+template <class Form>
 inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& table, Mask active) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
@@ -38,7 +39,7 @@ inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& tab
   for (int i = 0; i < kContinuationSteps && lane_bits(active) != 0; ++i) {
     Coefficients trial;
     for (std::size_t k = 0; k < 3; ++k) trial.c[k] = base.c[k] + length * step.c[k];
-    const SigmoidSums sums = band_sums(trial, table);
+    const SigmoidSums sums = band_sums<Form>(trial, table);
     F32 goal[3];
     goal_at(line, next, goal);
     Residual left = residual(sums, goal);
@@ -77,8 +78,9 @@ inline F32 follow(Coefficients& c, const GreyLine& line, const SigmoidTable& tab
   return part;
 }
 
-void sigmoid_continuation(float* const c[3], float* part, const float* const rgb[3],
-                          const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
+template <class Form>
+inline void continue_from_grey(float* const c[3], float* part, const float* const rgb[3],
+                               const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
   const F32 zero(0.0F);
   const F32 half(0.5F);
   const F32 one(1.0F);
@@ -108,7 +110,7 @@ void sigmoid_continuation(float* const c[3], float* part, const float* const rgb
     line.tries = effort(kContinuationInside.tries, kContinuationOutside.tries);
     line.steep = divide(F32(kSigmoidSteep), square_root(line.grey));
     Coefficients a = {{zero, zero, divide(line.grey - half, square_root(line.grey * (one - line.grey)))}};
-    const F32 solved = follow(a, line, table, lit);
+    const F32 solved = follow<Form>(a, line, table, lit);
     a.c[2] = xsimd::select(lit, a.c[2], F32(-kSigmoidFar));
     for (std::size_t k = 0; k < 3; ++k) {
       const F32 turned = xsimd::select(bright, a.c[k] * F32(-1.0F), a.c[k]);
@@ -116,6 +118,12 @@ void sigmoid_continuation(float* const c[3], float* part, const float* const rgb
     }
     store(part + at, xsimd::select(finite, solved, one));
   }
+}
+
+void sigmoid_continuation(float* const c[3], float* part, const float* const rgb[3],
+                          const SigmoidTable& table, const float luminance[3], std::size_t n) noexcept {
+  with_form(table.form,
+            [&](auto form) { continue_from_grey<decltype(form)>(c, part, rgb, table, luminance, n); });
 }
 
 }  // namespace

@@ -28,13 +28,14 @@ inline void add_slopes(SigmoidSums& sums, const SigmoidPoint& p, const float* ro
 }
 
 /// Sums over all bands, run by run, and their derivatives.
+template <class Form>
 inline SigmoidSums band_sums(const Coefficients& a, const SigmoidTable& table) noexcept {
   SigmoidSums sums = zero_sums();
   for_runs(table.bands, [&](std::size_t first, std::size_t end) {
     F32 run[3] = {F32(0.0F), F32(0.0F), F32(0.0F)};
     for (std::size_t b = first; b < end; ++b) {
       const float* row = table.rows + b * kSigmoidRow;
-      const SigmoidPoint p = sigmoid_point(a, F32(row[kSigmoidLambda]));
+      const SigmoidPoint p = sigmoid_point(a, Form(row));
       for (std::size_t k = 0; k < 3; ++k) run[k] = fused(F32(table.weights[4 * b + k]), p.sample, run[k]);
       add_slopes(sums, p, row);
     }

@@ -1,4 +1,4 @@
-// The sigmoid of a quadratic at one wavelength.
+// The sigmoid at one wavelength.
 #pragma once
 
 #include "kernels/sigmoid_constants.hpp"
@@ -24,14 +24,42 @@ struct SigmoidPoint {
   F32 sample, root;
 };
 
-inline SigmoidPoint sigmoid_point(const Coefficients& a, F32 lambda) noexcept {
-  const F32 x = fused(fused(a.c[0], lambda, a.c[1]), lambda, a.c[2]);
+/// The functions of a quadratic at one wavelength.
+struct Quadratic {
+  F32 q;
+  Quadratic() = default;
+  explicit Quadratic(const float* row) noexcept : q(row[kSigmoidQ]) {}
+  F32 argument(const Coefficients& a) const noexcept { return fused(fused(a.c[0], q, a.c[1]), q, a.c[2]); }
+};
+
+/// Two functions at one wavelength.
+struct Functions {
+  F32 p, q;
+  Functions() = default;
+  explicit Functions(const float* row) noexcept : p(row[kSigmoidP]), q(row[kSigmoidQ]) {}
+  F32 argument(const Coefficients& a) const noexcept { return fused(a.c[0], p, fused(a.c[1], q, a.c[2])); }
+};
+
+/// Calls body with the form's functions.
+template <class Body>
+inline void with_form(SigmoidForm form, Body body) noexcept {
+  if (form == SigmoidForm::kFunctions) {
+    body(Functions());
+  } else {
+    body(Quadratic());
+  }
+}
+
+template <class Form>
+inline SigmoidPoint sigmoid_point(const Coefficients& a, const Form& at) noexcept {
+  const F32 x = at.argument(a);
   const F32 root = half_inverse_root(fused(x, x, F32(1.0F)));
   return {fused(x, root, F32(0.5F)), root};
 }
 
-inline F32 sigmoid_sample(const Coefficients& a, F32 lambda) noexcept {
-  return min(F32(1.0F), max(F32(0.0F), sigmoid_point(a, lambda).sample));
+template <class Form>
+inline F32 sigmoid_sample(const Coefficients& a, const Form& at) noexcept {
+  return min(F32(1.0F), max(F32(0.0F), sigmoid_point(a, at).sample));
 }
 
 }  // namespace

@@ -17,13 +17,14 @@ struct Search {
 
 /// Steps from coefficients for the brightened colours to those of the targets. A lane that is done stays as
 /// it is, so that no lane depends on its neighbours.
+template <class Form>
 inline void refine(Coefficients& a, const Search& search, const SigmoidTable& table) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
   F32 scale = search.scale;
   F32 goal[3];
   for (std::size_t k = 0; k < 3; ++k) goal[k] = search.target[k] * scale;
-  SigmoidSums sums = band_sums(a, table);
+  SigmoidSums sums = band_sums<Form>(a, table);
   Residual left = residual(sums, goal);
   F32 part = one;
   Mask active = scale == scale;
@@ -46,7 +47,7 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
       trial.c[k] = xsimd::select(down, trial.c[k] + trial.c[k], trial.c[k]);
       goal[k] = xsimd::select(down, search.target[k] * scale, goal[k]);
     }
-    const SigmoidSums sums_there = band_sums(trial, table);
+    const SigmoidSums sums_there = band_sums<Form>(trial, table);
     const Residual left_there = residual(sums_there, goal);
     const Mask better =
         down | (active & (left_there.size < left.size) & (magnitude_sum(trial) <= search.steep));
@@ -66,8 +67,9 @@ inline void refine(Coefficients& a, const Search& search, const SigmoidTable& ta
 }
 
 /// How much too large the residual of coefficients is for colours of which z is the largest component.
+template <class Form>
 inline F32 excess(const Coefficients& a, const F32 target[3], F32 z, const SigmoidTable& table) noexcept {
-  const Residual left = residual(band_sums(a, table), target);
+  const Residual left = residual(band_sums<Form>(a, table), target);
   return left.size - max(F32(kSigmoidRounding), min(F32(kSigmoidUnsolved), z * F32(kSigmoidMet)));
 }
 
@@ -87,6 +89,7 @@ struct SigmoidBatch {
 };
 
 /// The first step of a vector of lanes; queues those that need more.
+template <class Form>
 inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const SigmoidTable& table, Mask& bright,
                                Mask& finite, SigmoidBatch& batch) noexcept {
   const F32 zero(0.0F);
@@ -115,7 +118,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
   for (std::size_t k = 0; k < 3; ++k) lit[k] = xsimd::select(black, F32(0.5F), v[k]);
   const F32 lit_z = xsimd::select(black, F32(0.5F), z);
   Coefficients out = start(lit, lit_z, table);
-  const SigmoidSums sums = band_sums(out, table);
+  const SigmoidSums sums = band_sums<Form>(out, table);
   const Residual left = residual(sums, target);
   const Coefficients step = newton_step(sums, left);
   const Mask near = left.size <= F32(kSigmoidNear) * z;
@@ -155,6 +158,7 @@ inline Coefficients first_step(const F32 rgb[3], std::size_t lane, const Sigmoid
 }
 
 /// The further steps of the lanes that wait.
+template <class Form>
 inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcept {
   // The last vector is filled up with copies of its first lane.
   for (std::size_t at = batch.count; at % kWidth != 0; ++at) {
@@ -195,14 +199,15 @@ inline void refine_batch(SigmoidBatch& batch, const SigmoidTable& table) noexcep
       const Coefficients first = start(lit, max(max(lit[0], lit[1]), lit[2]), table);
       for (std::size_t k = 0; k < 3; ++k) a.c[k] = xsimd::select(brightened, first.c[k], a.c[k]);
     }
-    refine(a, search, table);
-    store(batch.excess + at, excess(a, search.target, z, table));
+    refine<Form>(a, search, table);
+    store(batch.excess + at, excess<Form>(a, search.target, z, table));
     for (std::size_t k = 0; k < 3; ++k) store(batch.c[k] + at, a.c[k]);
   }
 }
 
-void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
-                   std::uint64_t* unsolved, std::size_t n) noexcept {
+template <class Form>
+inline void solve(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
+                  std::uint64_t* unsolved, std::size_t n) noexcept {
   SigmoidBatch batch;
   for (std::size_t first = 0; first < n; first += kSigmoidBatch) {
     const std::size_t count = n - first < kSigmoidBatch ? n - first : kSigmoidBatch;
@@ -212,7 +217,7 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTa
       F32 in[3];
       for (std::size_t k = 0; k < 3; ++k) in[k] = load(rgb[k] + first + lane);
       Mask bright, finite;
-      const Coefficients out = first_step(in, lane, table, bright, finite, batch);
+      const Coefficients out = first_step<Form>(in, lane, table, bright, finite, batch);
       bright_lanes[lane / 64] |= lane_bits(bright) << (lane % 64);
       for (std::size_t k = 0; k < 3; ++k) {
         const F32 turned = xsimd::select(bright, out.c[k] * F32(-1.0F), out.c[k]);
@@ -221,7 +226,7 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTa
     }
     for (std::size_t block = 0; block < count / kLanes; ++block) unsolved[first / kLanes + block] = 0;
     if (batch.count == 0) continue;
-    refine_batch(batch, table);
+    refine_batch<Form>(batch, table);
     for (std::size_t at = 0; at < batch.count; ++at) {
       const std::size_t lane = batch.lane[at];
       const bool turn = ((bright_lanes[lane / 64] >> (lane % 64)) & 1U) != 0;
@@ -231,6 +236,11 @@ void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTa
       }
     }
   }
+}
+
+void sigmoid_solve(float* const c[3], const float* const rgb[3], const SigmoidTable& table,
+                   std::uint64_t* unsolved, std::size_t n) noexcept {
+  with_form(table.form, [&](auto form) { solve<decltype(form)>(c, rgb, table, unsolved, n); });
 }
 
 }  // namespace

@@ -130,8 +130,19 @@ void sigmoid_at(float* dst, const float* lambda_nm, const SigmoidSpectrum& spect
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
     const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
-    const F32 l = divide(held - F32(550.0F), F32(150.0F));
-    store(dst + i, or_nan(lambda, sigmoid_sample(a, l) * scale));
+    F32 sample;
+    if (spectrum.form == SigmoidForm::kFunctions) {
+      const EvenPlace place = place_in(spectrum.q, xsimd::select(is_nan(lambda), low, held));
+      Functions at;
+      at.p = value_at(spectrum.p.pairs, place);
+      at.q = value_at(spectrum.q.pairs, place);
+      sample = sigmoid_sample(a, at);
+    } else {
+      Quadratic at;
+      at.q = divide(held - F32(550.0F), F32(150.0F));
+      sample = sigmoid_sample(a, at);
+    }
+    store(dst + i, or_nan(lambda, sample * scale));
   }
 }
 

@@ -119,8 +119,8 @@ void solve(const KernelTable& k, RgbState& s) {
 
 kernels::SigmoidSpectra sigmoids(RgbState& s, const float* (&c)[3]) {
   for (std::size_t k = 0; k < 3; ++k) c[k] = s.coefficients.data() + k * kMethodLanes;
-  return {c, nullptr, UpsamplerAccess::sigmoid(*s.upsampler)->table.rows, s.upsampler->bands().count(),
-          false};
+  const kernels::SigmoidTable& table = UpsamplerAccess::sigmoid(*s.upsampler)->table;
+  return {c, nullptr, table.rows, s.upsampler->bands().count(), false, table.form};
 }
 
 void evaluate(const KernelTable& k, RgbState& s) {
@@ -145,7 +145,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   const auto name = [&](const char* execution) {
     return fmt::format("{}, {}, {}", family, label, execution);
   };
-  if (method == Method::kSigmoid) {
+  if (is_sigmoid(method)) {
     maker.add(s, family, name("spectra in float"), 4 * samples, [](const KernelTable& k, RgbState& t) {
       solve(k, t);
       evaluate(k, t);
@@ -251,7 +251,8 @@ Result<std::vector<MethodRun>> rgb_methods(const MethodScene& scene, bool quick)
     lists.emplace_back(bands, fmt::format("{} planned bands", bands.count()));
   }
   for (const auto& [bands, label] : lists) {
-    for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
+    for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                                Method::kSigmoidObserver}) {
       SPECTILE_TRY(add_method(maker, method, bands, label));
     }
   }

@@ -20,19 +20,36 @@ using Shared = std::shared_ptr<const Upsampler>;
 /// A sample: nine fused multiply-adds, further multiply-adds, the limits, the guess from its bits.
 constexpr double kSigmoidBand = 16;
 
+/// The functions that the argument combines, at one place.
+struct Place {
+  double p, q;
+};
+
+double argument(const double* c, const Place& at) {
+  return c[0] * at.p + c[1] * at.q + c[2];
+}
+
 /// The sigmoid in double, from coefficients in float.
-double sigmoid(const double* c, double lambda) {
-  const double x = (c[0] * lambda + c[1]) * lambda + c[2];
+double sigmoid(const double* c, const Place& at) {
+  const double x = argument(c, at);
   return std::clamp(0.5 + 0.5 * x / std::sqrt(1 + x * x), 0.0, 1.0);
 }
 
-double band_lambda(const SigmoidTable& table, std::size_t band) {
-  return static_cast<double>(table.rows[band * kernels::kSigmoidRow + kernels::kSigmoidLambda]);
+Place band_place(const SigmoidTable& table, std::size_t band) {
+  const float* const row = table.rows + band * kernels::kSigmoidRow;
+  const auto q = static_cast<double>(row[kernels::kSigmoidQ]);
+  const bool quadratic = table.form == kernels::SigmoidForm::kQuadratic;
+  return {quadratic ? q * q : static_cast<double>(row[kernels::kSigmoidP]), q};
 }
 
-/// 2^-23 of the sigmoid itself; the polynomial's rounding times its slope, 1/2 at most.
-double allowed_at(const double* c, double lambda) {
-  return 0x1p-23 + 0x1p-24 * (std::abs(c[0]) * lambda * lambda + std::abs(c[1] * lambda) + std::abs(c[2]));
+/// Sum of the magnitudes of the argument's terms.
+double terms_at(const double* c, const Place& at) {
+  return std::abs(c[0] * at.p) + std::abs(c[1] * at.q) + std::abs(c[2]);
+}
+
+/// 2^-23 of the sigmoid itself; the argument's rounding times its slope, 1/2 at most.
+double allowed_at(const double* c, const Place& at) {
+  return 0x1p-23 + 0x1p-24 * terms_at(c, at);
 }
 
 /// Coefficients for which allowed_at() holds.
@@ -44,19 +61,41 @@ bool has_bound(const double* c) {
 std::array<double, 3> sigmoid_color(const SigmoidTable& table, const double* c) {
   std::array<double, 3> sum{};
   for (std::size_t b = 0; b < table.bands; ++b) {
-    const double s = sigmoid(c, band_lambda(table, b));
+    const double s = sigmoid(c, band_place(table, b));
     for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(table.weights[4 * b + k]) * s;
   }
   return sum;
+}
+
+/// Allowed error of the kernel's sums: each sample's by its own rounding and by its slope times that of the
+/// polynomial.
+std::array<double, 3> sum_rounding(const SigmoidTable& table, const double* c) {
+  std::array<double, 3> sum{};
+  for (std::size_t b = 0; b < table.bands; ++b) {
+    const Place at = band_place(table, b);
+    const double x = argument(c, at);
+    const double slope = 0.5 / std::pow(1 + x * x, 1.5);
+    const double terms = terms_at(c, at);
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[k] += std::abs(static_cast<double>(table.weights[4 * b + k])) * (0x1p-23 + 0x1p-23 * slope * terms);
+    }
+  }
+  return sum;
+}
+
+std::string name_of(const Shared& upsampler, const char* step) {
+  return fmt::format("{}: {}", to_string(upsampler->method()), step);
 }
 
 void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidModel& model = *UpsamplerAccess::sigmoid(*upsampler);
   const std::size_t bands = upsampler->bands().count();
   const auto count = static_cast<double>(bands);
-  Operation& solve = add_operation(to, "upsampling", "sigmoid: find coefficients", "colour", {3, 1}, {3, 1});
+  Operation& solve =
+      add_operation(to, "upsampling", name_of(upsampler, "find coefficients"), "colour", {3, 1}, {3, 1});
   solve.unit = "1e-6 of the colour";
-  // Bands on which some colours have no sigmoid are bounded by 1e-5 where they are not reported.
+  // Bands on which some colours have no sigmoid are bounded by 1e-5 and their sums' rounding where they are
+  // not reported.
   solve.bound = model.covers_unit_cube ? 1 : 10;
   solve.fill = uniform_values(3, 0.0F, 1.0F);
   // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
@@ -86,26 +125,11 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
     // Bands that have no sigmoid for some colours report them.
     if (std::isnan(c[0])) return covers_unit_cube ? kBeyond : kOutOfDomain;
     const auto sum = sigmoid_color(table, c);
+    const auto rounding = covers_unit_cube ? std::array<double, 3>{} : sum_rounding(table, c);
     double worst = 0;
-    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]));
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]) - rounding[k]);
     return worst / 1e-6;
   };
-}
-
-/// Allowed error of the kernel's sums: each sample's by its own rounding and by its slope times that of the
-/// polynomial.
-std::array<double, 3> sum_rounding(const SigmoidTable& table, const double* c) {
-  std::array<double, 3> sum{};
-  for (std::size_t b = 0; b < table.bands; ++b) {
-    const double l = band_lambda(table, b);
-    const double x = (c[0] * l + c[1]) * l + c[2];
-    const double slope = 0.5 / std::pow(1 + x * x, 1.5);
-    const double terms = std::abs(c[0]) * l * l + std::abs(c[1] * l) + std::abs(c[2]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum[k] += std::abs(static_cast<double>(table.weights[4 * b + k])) * (0x1p-23 + 0x1p-23 * slope * terms);
-    }
-  }
-  return sum;
 }
 
 /// Colours that sigmoid_solve does not find, for colours outside the cube as well as in it.
@@ -113,7 +137,7 @@ void add_continuation(std::vector<Operation>& to, const Shared& upsampler) {
   const SigmoidTable table = UpsamplerAccess::sigmoid(*upsampler)->table;
   const auto count = static_cast<double>(table.bands);
   Operation& op =
-      add_operation(to, "upsampling", "sigmoid: the long way from grey", "colour", {3, 1}, {4, 1});
+      add_operation(to, "upsampling", name_of(upsampler, "the long way from grey"), "colour", {3, 1}, {4, 1});
   op.unit = "of what counts as found";
   op.bound = 1;
   op.expense = 64;
@@ -178,7 +202,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       if (!has_bound(c)) return kOutOfDomain;
       double worst = 0;
       for (std::size_t b = 0; b < bands; ++b) {
-        const double l = band_lambda(table, b);
+        const Place l = band_place(table, b);
         const double reference = sigmoid(c, l);
         const double off = std::abs(out[b] - reference);
         const double allowed = allowed_at(c, l);
@@ -188,26 +212,25 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
       return worst;
     };
   };
-  Operation& blocks = evaluation(to, "sigmoid: evaluate", bands);
+  Operation& blocks = evaluation(to, name_of(upsampler, "evaluate"), bands);
   blocks.out = {1, bands};
   blocks.can_stream = true;
   blocks.run = [=](const KernelTable& k, const Arrays& a) {
-    k.sigmoid_blocks(a.out(),
-                     {a.in3().data(), nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows, bands},
-                     a.blocks, a.non_temporal);
+    k.sigmoid_blocks(a.out(), {a.in3().data(), nullptr, table.rows, bands, false, table.form}, a.blocks,
+                     a.non_temporal);
   };
   blocks.error = samples_error(false);
 
   for (const bool half : {false, true}) {
     Operation& line = evaluation(
-        to, half ? "sigmoid: evaluate to a line of halves" : "sigmoid: evaluate to a line of floats", bands);
+        to, name_of(upsampler, half ? "evaluate to a line of halves" : "evaluate to a line of floats"),
+        bands);
     line.out = {bands, 1, half ? Element::kHalf : Element::kFloat};
     line.operations += half ? 3 * static_cast<double>(bands) : 0;
     line.cache_only = true;
     line.run = [=](const KernelTable& k, const Arrays& a) {
       const float* const c[3] = {a.in(0), a.in(1), a.in(2)};
-      const kernels::SigmoidSpectra spectra = {c, nullptr, UpsamplerAccess::sigmoid(*upsampler)->table.rows,
-                                               bands};
+      const kernels::SigmoidSpectra spectra = {c, nullptr, table.rows, bands, false, table.form};
       (half ? k.sigmoid_rows_half : k.sigmoid_rows_float)(line_rows(a, bands), spectra, a.n());
     };
     line.error = samples_error(half);
@@ -218,12 +241,13 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   }
 
   // Colours of coefficients, as sums over the bands that are not stored.
-  Operation& sums = evaluation(to, "sigmoid: sum to a colour", bands);
+  Operation& sums = evaluation(to, name_of(upsampler, "sum to a colour"), bands);
   sums.out = {3, 1};
   sums.operations += (6 + 3.0 / 8) * static_cast<double>(bands);
   sums.run = [=](const KernelTable& k, const Arrays& a) {
     const SigmoidTable& t = UpsamplerAccess::sigmoid(*upsampler)->table;
-    k.sigmoid_project(a.out3().data(), {a.in3().data(), nullptr, t.rows, bands}, t.weights, a.n());
+    k.sigmoid_project(a.out3().data(), {a.in3().data(), nullptr, t.rows, bands, false, t.form}, t.weights,
+                      a.n());
   };
   sums.error = [=](const double* c, const double* out, double tiny) {
     if (!has_bound(c)) return kOutOfDomain;
@@ -231,7 +255,7 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
     std::array<double, 3> allowed{};
     const double roundings = static_cast<double>(bands) / 8 + 11;
     for (std::size_t b = 0; b < bands; ++b) {
-      const double l = band_lambda(table, b);
+      const Place l = band_place(table, b);
       for (std::size_t k = 0; k < 3; ++k) {
         const double w = std::abs(static_cast<double>(table.weights[4 * b + k]));
         allowed[k] += w * (allowed_at(c, l) + roundings * 0x1p-24 * sigmoid(c, l) + tiny);
@@ -262,12 +286,13 @@ void add_at_wavelengths(std::vector<Operation>& to) {
     const double held = std::clamp(v[0], static_cast<double>(kSigmoidAtWavelengths.lowest_nm),
                                    static_cast<double>(kSigmoidAtWavelengths.highest_nm));
     const double l = sigmoid_lambda(held);
+    const Place at = {l * l, l};
     double c[3];
     for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kSigmoidAtWavelengths.c[k]);
     // Lambda is rounded twice, which the polynomial's slope passes on.
     const double slope = std::abs(2 * c[0] * l + c[1]);
-    const double allowed = allowed_at(c, l) + 0x1p-24 * slope * std::abs(l);
-    return std::abs(out[0] - sigmoid(c, l)) / allowed;
+    const double allowed = allowed_at(c, at) + 0x1p-24 * slope * std::abs(l);
+    return std::abs(out[0] - sigmoid(c, at)) / allowed;
   };
 }
 
@@ -277,7 +302,7 @@ void add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
   add_search(to, upsampler);
   add_continuation(to, upsampler);
   add_evaluations(to, upsampler);
-  add_at_wavelengths(to);
+  if (upsampler->method() == Method::kSigmoid) add_at_wavelengths(to);
 }
 
 }  // namespace spectile::measure

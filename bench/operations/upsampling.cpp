@@ -212,7 +212,9 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
                     Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
     add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
   }
-  if (const auto sigmoids = create_upsampler(Method::kSigmoid)) add_sigmoids(to, sigmoids);
+  for (const Method method : {Method::kSigmoid, Method::kSigmoidObserver}) {
+    if (const auto sigmoids = create_upsampler(method)) add_sigmoids(to, sigmoids);
+  }
   add_gamut(to, *smits);
   return {};
 }

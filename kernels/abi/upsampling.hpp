@@ -1,6 +1,8 @@
 // Spectra from colours: Smits mixtures and sigmoids of quadratics.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/abi/lanes.hpp"
 
 namespace spectile::kernels {
@@ -15,11 +17,18 @@ struct SmitsTable {
   float lowest = 0;  ///< samples below become it; -infinity for none
 };
 
-/// Floats of a sigmoid's row: for each of red, green, blue four times its weight times lambda^2, lambda, 1;
-/// then lambda itself, the white's sample and a 0.
+/// Argument x of a sigmoid: of two functions p and q of the wavelength, and a constant.
+enum class SigmoidForm : std::uint8_t {
+  kQuadratic,  ///< (c0 q + c1) q + c2; q = (wavelength - 550 nm) / 150 nm
+  kFunctions,  ///< c0 p + (c1 q + c2); p and q of an observer
+};
+
+/// Floats of a sigmoid's row: for each of red, green, blue four times its weight times p, q, 1; then q, the
+/// white's sample and p.
 inline constexpr std::size_t kSigmoidRow = 12;
-inline constexpr std::size_t kSigmoidLambda = 9;
+inline constexpr std::size_t kSigmoidQ = 9;
 inline constexpr std::size_t kSigmoidWhite = 10;
+inline constexpr std::size_t kSigmoidP = 11;
 
 /// Floats of a node of the start table: three coefficients; for each, its first derivatives along the three
 /// axes, its pure second ones (halved) and its mixed ones (01, 02, 12); two zeros.
@@ -33,13 +42,14 @@ inline constexpr float kSigmoidFar = 0x1p40F;
 /// reflectance is much further out.
 inline constexpr float kSigmoidSteep = 256.0F;
 
-/// Tables for solving for sigmoid coefficients. Lambda is (wavelength - 550 nm) / 150 nm.
+/// Tables for solving for sigmoid coefficients.
 struct SigmoidTable {
   std::size_t bands = 0;
   const float* rows = nullptr;     ///< [bands][kSigmoidRow]
   const float* weights = nullptr;  ///< [bands][4]: RGB weight, 0
   const float* nodes = nullptr;    ///< [3][steps][steps][steps][kSigmoidNode]
   std::int32_t steps = 0;
+  SigmoidForm form = SigmoidForm::kQuadratic;
 };
 
 /// The sigmoid spectra of lanes over bands.
@@ -49,6 +59,7 @@ struct SigmoidSpectra {
   const float* rows = nullptr;      ///< [bands][kSigmoidRow]
   std::size_t bands = 0;
   bool white = false;  ///< times the bands' white
+  SigmoidForm form = SigmoidForm::kQuadratic;
 };
 
 struct UpsamplingKernels {
@@ -70,7 +81,7 @@ struct UpsamplingKernels {
                      std::size_t n) noexcept;
 
   // Sigmoids. fma rounds once, here, in planck and in peak_fused alone.
-  //   x = fma(fma(c0, lambda, c1), lambda, c2), t = fma(x, x, 1)
+  //   x = fma(fma(c0, q, c1), q, c2) or fma(c0, p, fma(c1, q, c2)), by the form; t = fma(x, x, 1)
   //   r = 0.5 / sqrt(t) from bits and two steps: within 2.5 * 2^-24 up to x = 2^62, 3.1 * 2^-24 beyond
   //   sample = clamp(fma(x, r, 0.5), 0, 1) * white * scale, from left to right, each where there is one
   // Source: Jakob, Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer

@@ -1,7 +1,7 @@
 // Spectra at single wavelengths, sampled wavelengths, and their projection.
 #pragma once
 
-#include "kernels/abi/lanes.hpp"
+#include "kernels/abi/upsampling.hpp"
 
 namespace spectile::kernels {
 
@@ -43,6 +43,9 @@ struct SigmoidSpectrum {
   float c[3];
   float lowest_nm, highest_nm;
   float scale;
+  SigmoidForm form = SigmoidForm::kQuadratic;
+  EvenTable p = {};  ///< of kFunctions; these cover the range
+  EvenTable q = {};
 };
 
 /// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's
@@ -80,7 +83,7 @@ struct WavelengthKernels {
   /// sum(lobes) amplitude * exp(-z^2 / 2), z = (lambda - mean) / sigma, in double, rounded once
   void (*gaussians)(float* dst, const float* lambda_nm, const GaussianLobe* lobes, std::size_t count,
                     std::size_t n) noexcept;
-  /// sigmoid(clamp(lambda, lowest, highest)) * scale, as in UpsamplingKernels
+  /// sigmoid(clamp(lambda, lowest, highest)) * scale, as in UpsamplingKernels; p and q as in interpolate_even
   void (*sigmoid_at)(float* dst, const float* lambda_nm, const SigmoidSpectrum& spectrum,
                      std::size_t n) noexcept;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <spectile/constants.hpp>
 #include <spectile/lanes/spectrum_sampler.hpp>
 
@@ -11,6 +12,7 @@
 #include "src/lanes/knot_index.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/spectra/sigmoid_functions.hpp"
 
 namespace spectile {
 
@@ -110,6 +112,7 @@ struct SpectrumSampler::Tables {
   float highest_nm = 0;
   float scale = 1;
   bool white = false;
+  std::optional<Observer> observer;  // of a sigmoid's functions
 
   Result<void> set(const ConstantSpectrum& s) {
     if (!fits_float(s.value()) && !std::isnan(s.value())) {
@@ -160,6 +163,13 @@ struct SpectrumSampler::Tables {
     scale = s.scale();
     lowest_nm = static_cast<float>(s.first_nm());
     highest_nm = static_cast<float>(s.last_nm());
+    observer = s.observer();
+    if (observer) {
+      lowest_nm =
+          static_cast<float>(std::clamp(s.first_nm(), SigmoidFunctions::kFirstNm, SigmoidFunctions::kLastNm));
+      highest_nm =
+          static_cast<float>(std::clamp(s.last_nm(), SigmoidFunctions::kFirstNm, SigmoidFunctions::kLastNm));
+    }
     white = s.table() != nullptr;
     kind = Kind::kSigmoid;
     return white ? set_knots(*s.table(), true, Kind::kSigmoid) : Result<void>{};
@@ -193,8 +203,21 @@ struct SpectrumSampler::Tables {
     }
   }
 
+  kernels::EvenTable functions_table(std::size_t k) const {
+    const std::vector<float>& pairs = SigmoidFunctions::of(observer).pairs(k);
+    return {pairs.data(), static_cast<float>(SigmoidFunctions::kFirstNm), 1.0F,
+            static_cast<std::int32_t>(pairs.size() / 2)};
+  }
+
   void sigmoid_row(const KernelTable& kernels, const float* lambda_nm, float* out, std::size_t n) const {
-    kernels.sigmoid_at(out, lambda_nm, {{c[0], c[1], c[2]}, lowest_nm, highest_nm, white ? 1.0F : scale}, n);
+    kernels::SigmoidSpectrum spectrum = {
+        {c[0], c[1], c[2]}, lowest_nm, highest_nm, white ? 1.0F : scale, {}, {}, {}};
+    if (observer) {
+      spectrum.form = kernels::SigmoidForm::kFunctions;
+      spectrum.p = functions_table(0);
+      spectrum.q = functions_table(1);
+    }
+    kernels.sigmoid_at(out, lambda_nm, spectrum, n);
     if (!white) return;
     // In the order of the batches of pixels: the sample, times the white, times the scale.
     alignas(64) float whites[kLanesPerBlock];

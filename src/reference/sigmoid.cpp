@@ -1,4 +1,4 @@
-// The sigmoid of a quadratic in one lane, and the search for its coefficients.
+// The sigmoid in one lane, and the search for its coefficients.
 #include "src/reference/sigmoid.hpp"
 
 #include <algorithm>
@@ -122,14 +122,22 @@ float half_inverse_root(float t) noexcept {
   return y1 * fused(-(y1 * y1), t, kRootThird);
 }
 
-SigmoidPoint sigmoid_point(const float c[3], float lambda) noexcept {
-  const float x = fused(fused(c[0], lambda, c[1]), lambda, c[2]);
+float sigmoid_argument(SigmoidForm form, const float c[3], float p, float q) noexcept {
+  return form == SigmoidForm::kFunctions ? fused(c[0], p, fused(c[1], q, c[2]))
+                                         : fused(fused(c[0], q, c[1]), q, c[2]);
+}
+
+float sigmoid_argument(SigmoidForm form, const float c[3], const float* row) noexcept {
+  return sigmoid_argument(form, c, row[kSigmoidP], row[kSigmoidQ]);
+}
+
+SigmoidPoint sigmoid_point(float x) noexcept {
   const float root = half_inverse_root(fused(x, x, 1.0F));
   return {fused(x, root, 0.5F), root};
 }
 
-float sigmoid_sample(const float c[3], float lambda) noexcept {
-  const float s = sigmoid_point(c, lambda).sample;
+float sigmoid_sample(float x) noexcept {
+  const float s = sigmoid_point(x).sample;
   const float above = s < 0.0F ? 0.0F : s;
   return 1.0F < above ? 1.0F : above;
 }

@@ -1,4 +1,4 @@
-// The sigmoid of a quadratic in one lane, and the search for its coefficients, operation by operation as the
+// The sigmoid in one lane, and the search for its coefficients, operation by operation as the
 // kernels do it.
 #pragma once
 
@@ -14,10 +14,15 @@ float half_inverse_root(float t) noexcept;
 struct SigmoidPoint {
   float sample, root;
 };
-SigmoidPoint sigmoid_point(const float c[3], float lambda) noexcept;
+SigmoidPoint sigmoid_point(float x) noexcept;
+
+/// x of the form, of coefficients and the functions at one wavelength.
+float sigmoid_argument(kernels::SigmoidForm form, const float c[3], float p, float q) noexcept;
+/// The same of a band's row.
+float sigmoid_argument(kernels::SigmoidForm form, const float c[3], const float* row) noexcept;
 
 /// A sample as the kernels write it: clamped to [0, 1].
-float sigmoid_sample(const float c[3], float lambda) noexcept;
+float sigmoid_sample(float x) noexcept;
 
 /// Coefficients for one colour; false where none come within 1e-5 of it.
 bool sigmoid_coefficients(float c[3], const float rgb[3], const kernels::SigmoidTable& table) noexcept;

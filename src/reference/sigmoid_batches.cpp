@@ -8,7 +8,6 @@ namespace spectile::reference {
 namespace {
 
 using kernels::kLanes;
-using kernels::kSigmoidLambda;
 using kernels::kSigmoidRow;
 using kernels::kSigmoidWhite;
 using kernels::SigmoidSpectra;
@@ -16,7 +15,7 @@ using kernels::SigmoidSpectra;
 float scaled_sample(const SigmoidSpectra& s, std::size_t band, std::size_t i) {
   const float lane[3] = {s.c[0][i], s.c[1][i], s.c[2][i]};
   const float* const row = s.rows + band * kSigmoidRow;
-  const float sample = sigmoid_sample(lane, row[kSigmoidLambda]);
+  const float sample = sigmoid_sample(sigmoid_argument(s.form, lane, row));
   return (sample * (s.white ? row[kSigmoidWhite] : 1.0F)) * (s.scale == nullptr ? 1.0F : s.scale[i]);
 }
 

@@ -40,7 +40,7 @@ inline Sums band_sums(const float c[3], const kernels::SigmoidTable& table) {
     float run[3] = {0, 0, 0};
     for (std::size_t b = first; b < table.bands && b < first + kernels::kSumRun; ++b) {
       const float* row = table.rows + b * kernels::kSigmoidRow;
-      const SigmoidPoint p = sigmoid_point(c, row[kernels::kSigmoidLambda]);
+      const SigmoidPoint p = sigmoid_point(sigmoid_argument(table.form, c, row));
       for (std::size_t k = 0; k < 3; ++k) run[k] = fused(table.weights[4 * b + k], p.sample, run[k]);
       add_slopes(sums, p, row);
     }

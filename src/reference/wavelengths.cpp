@@ -102,7 +102,10 @@ void sigmoid_at(float* dst, const float* lambda_nm, const kernels::SigmoidSpectr
   for (std::size_t i = 0; i < n; ++i) {
     const float lambda = lambda_nm[i];
     const float held = lambda < s.lowest_nm ? s.lowest_nm : (lambda > s.highest_nm ? s.highest_nm : lambda);
-    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(s.c, (held - 550.0F) / 150.0F) * s.scale;
+    const bool tabulated = s.form == kernels::SigmoidForm::kFunctions;
+    const float p = tabulated ? value_at(s.p, held) : 0.0F;
+    const float q = tabulated ? value_at(s.q, held) : (held - 550.0F) / 150.0F;
+    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(sigmoid_argument(s.form, s.c, p, q)) * s.scale;
   }
 }
 

@@ -122,8 +122,8 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
     return;
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;
-  kernels.sigmoid_blocks(spectra, {c, scale, UpsamplerAccess::sigmoid(upsampler)->table.rows, bands, white},
-                         blocks, non_temporal);
+  const kernels::SigmoidTable& table = UpsamplerAccess::sigmoid(upsampler)->table;
+  kernels.sigmoid_blocks(spectra, {c, scale, table.rows, bands, white, table.form}, blocks, non_temporal);
 }
 
 }  // namespace spectile::rows

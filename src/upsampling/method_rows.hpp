@@ -10,7 +10,7 @@ namespace spectile {
 
 /// An upsampler's tables in the kernels' layout.
 struct UpsamplerAccess {
-  /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoid.
+  /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoids.
   static const float* table(const Upsampler& upsampler) noexcept { return upsampler.table_.data(); }
   /// Null for the methods that mix basis spectra.
   static const SigmoidModel* sigmoid(const Upsampler& upsampler) noexcept { return upsampler.sigmoid_.get(); }
@@ -18,7 +18,7 @@ struct UpsamplerAccess {
 
 /// A relighter's table in the kernels' layout.
 struct RelighterAccess {
-  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoid.
+  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids.
   static const float* table(const Relighter& relighter) noexcept { return relighter.table_.data(); }
 };
 
@@ -38,7 +38,7 @@ struct Coefficients {
 
 /// True for the methods whose coefficients are their RGB.
 inline bool mixes_bases(const Upsampler& upsampler) {
-  return upsampler.method() != Method::kSigmoid;
+  return !is_sigmoid(upsampler.method());
 }
 /// True where every lane has a scale besides its coefficients.
 inline bool has_scale(const Upsampler& upsampler) {

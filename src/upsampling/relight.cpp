@@ -89,8 +89,9 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
   const float* const read[3] = {c[0], c[1], c[2]};
   const Projector& projector = relighter.projector();
   const std::array<float, 9> matrix = color::to_float(relighter.matrix());
-  kernels::SigmoidSpectra spectra = {read, found.scale, UpsamplerAccess::sigmoid(upsampler)->table.rows,
-                                     projector.bands().count(), false};
+  const kernels::SigmoidTable& sigmoids = UpsamplerAccess::sigmoid(upsampler)->table;
+  kernels::SigmoidSpectra spectra = {read,  found.scale,  sigmoids.rows, projector.bands().count(),
+                                     false, sigmoids.form};
   for (std::size_t at = 0; at < n; at += rows::kChunk) {
     const std::size_t lanes = std::min(rows::kChunk, n - at);
     const float* const in[3] = {rgb[0] + at, rgb[1] + at, rgb[2] + at};

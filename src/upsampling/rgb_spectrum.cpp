@@ -47,6 +47,7 @@ Result<UpsampledSpectrum> rgb_spectrum(const Upsampler& upsampler, const std::ar
     SPECTILE_ASSIGN(auto found, CoefficientLanes::create(upsampler, 1));
     SPECTILE_TRY(coefficients(upsampler, lanes.view(), found));
     out.sigmoid = {found.c.at(0, 0), found.c.at(0, 1), found.c.at(0, 2)};
+    if (upsampler.method() == Method::kSigmoidObserver) out.observer = upsampler.options().observer;
     if (rows::has_scale(upsampler)) out.scale = found.scale[0];
     if (upsampler.quantity() != Quantity::kIlluminant) return UpsampledSpectrum::create(std::move(out));
     const float* const own = UpsamplerAccess::sigmoid(upsampler)->table.rows;

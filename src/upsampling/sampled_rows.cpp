@@ -14,7 +14,8 @@
 namespace spectile::rows {
 namespace {
 
-using kernels::kSigmoidLambda;
+using kernels::kSigmoidP;
+using kernels::kSigmoidQ;
 using kernels::kSigmoidRow;
 using kernels::kSigmoidWhite;
 
@@ -37,11 +38,6 @@ Place locate(const Bands& bands, double wavelength_nm) {
 /// Linear between the values of two bands; the first's own where the place is its centre.
 double interpolate(const Place& place, double first, double next) {
   return place.t == 0 ? first : (1 - place.t) * first + place.t * next;
-}
-
-float clamped_lambda(const SigmoidModel& model, double wavelength_nm) {
-  return std::clamp(static_cast<float>(sigmoid_lambda(wavelength_nm)), model.lowest_lambda,
-                    model.highest_lambda);
 }
 
 /// A light of luminance 1 in bands that need not be those the method was made for. A plan's emission values
@@ -67,6 +63,7 @@ Result<SampledRows> SampledRows::sized(const Upsampler& upsampler, std::size_t c
   out.sigmoid_ = !mixes_bases(upsampler);
   out.has_scale_ = rows::has_scale(upsampler);
   out.white_ = out.sigmoid_ && upsampler.quantity() == Quantity::kIlluminant;
+  if (out.sigmoid_) out.form_ = UpsamplerAccess::sigmoid(upsampler)->table.form;
   out.lowest_ = upsampler.lowest();
   out.row_floats_ = out.sigmoid_ ? kSigmoidRow : kernels::kSmitsRow;
   SPECTILE_ASSIGN(out.table_, FloatBuffer::create(count * out.row_floats_));
@@ -83,10 +80,13 @@ void SampledRows::copy(const Upsampler& upsampler) {
 void SampledRows::set_limits() {
   const std::size_t first = sigmoid_ ? kSigmoidWhite : 0;
   const std::size_t end = sigmoid_ ? kSigmoidWhite + 1 : kernels::kSmitsRow;
-  float lambda = 1;
+  float p = 1;  // largest magnitudes
+  float q = 1;
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t k = first; k < end; ++k) largest_ = std::max(largest_, std::abs(row(i)[k]));
-    if (sigmoid_) lambda = std::max(lambda, std::abs(row(i)[kSigmoidLambda]));
+    if (!sigmoid_) continue;
+    p = std::max(p, std::abs(row(i)[kSigmoidP]));
+    q = std::max(q, std::abs(row(i)[kSigmoidQ]));
   }
   const float most = std::numeric_limits<float>::max() / std::max(largest_, 1.0F);
   if (!sigmoid_) {
@@ -94,8 +94,8 @@ void SampledRows::set_limits() {
     limits_ = {most / 2, most / 2, most / 2, 0};
     return;
   }
-  // The polynomial stays below 3 * 2^61, its square finite.
-  limits_ = {0x1p61F / (lambda * lambda), 0x1p61F / lambda, 0x1p61F, most};
+  // The argument stays below 3 * 2^61, its square finite.
+  limits_ = {0x1p61F / p, 0x1p61F / q, 0x1p61F, most};
   black_ = {0, 0, -kernels::kSigmoidFar, 0};
 }
 
@@ -115,7 +115,7 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
       SPECTILE_ASSIGN(white, white_in(bands, upsampler, light));
     }
     for (std::size_t b = 0; b < bands.count(); ++b) {
-      out.row(b)[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), bands[b].centre_nm);
+      set_functions(*UpsamplerAccess::sigmoid(upsampler), bands[b].centre_nm, out.row(b));
       out.row(b)[kSigmoidWhite] = static_cast<float>(white[b]);
     }
   }
@@ -135,7 +135,7 @@ Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const 
       const auto white = [own](std::size_t b) {
         return static_cast<double>(own[b * kSigmoidRow + kSigmoidWhite]);
       };
-      row[kSigmoidLambda] = clamped_lambda(*UpsamplerAccess::sigmoid(upsampler), wavelengths_nm[i]);
+      set_functions(*UpsamplerAccess::sigmoid(upsampler), wavelengths_nm[i], row);
       row[kSigmoidWhite] = static_cast<float>(interpolate(place, white(place.band), white(next)));
     } else {
       const auto basis = upsampler.basis();
@@ -169,7 +169,7 @@ void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* 
                               const float* scale, void* const* out, bool half, std::size_t n) const {
   if (sigmoid_) {
     const auto kernel = half ? kernels.sigmoid_rows_half : kernels.sigmoid_rows_float;
-    kernel(out, {c, scale, table_.data(), count_, white_}, n);
+    kernel(out, {c, scale, table_.data(), count_, white_, form_}, n);
     return;
   }
   const auto kernel = half ? kernels.smits_rows_half : kernels.smits_rows_float;
@@ -180,7 +180,7 @@ void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* 
 void SampledRows::expand_blocks(const kernels::KernelTable& kernels, const float* const c[3],
                                 const float* scale, float* spectra, std::size_t blocks) const {
   if (sigmoid_) {
-    kernels.sigmoid_blocks(spectra, {c, scale, table_.data(), count_, white_}, blocks, false);
+    kernels.sigmoid_blocks(spectra, {c, scale, table_.data(), count_, white_, form_}, blocks, false);
   } else {
     kernels.smits_blocks(spectra, c, {table_.data(), count_, lowest_}, blocks, false);
   }

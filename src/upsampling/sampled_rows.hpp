@@ -10,12 +10,12 @@
 namespace spectile::rows {
 
 /// A row of the kernels' table for each band or wavelength: of basis samples for methods that mix basis
-/// spectra, of kSigmoidRow floats for the sigmoid (of which evaluating needs lambda and the white only). It
+/// spectra, of kSigmoidRow floats for the sigmoids (of which evaluating needs p, q and the white only). It
 /// does not need its upsampler any more.
 class SampledRows {
  public:
   /// For bands. The upsampler's own give its own samples, to the bit. Others: basis spectra are made anew for
-  /// them; the sigmoid's polynomial is evaluated at their centres, at the ends of the upsampler's bands
+  /// them; the sigmoid's argument is evaluated at their centres, at the ends of the upsampler's bands
   /// beyond these, and a light's white is averaged over them, with luminance 1 over the upsampler's bands.
   /// Errors: kOutOfMemory; those of Upsampler::create() for bases.
   static Result<SampledRows> over(const Upsampler& upsampler, const Bands& bands);
@@ -62,6 +62,7 @@ class SampledRows {
   bool sigmoid_ = false;
   bool has_scale_ = false;
   bool white_ = false;
+  kernels::SigmoidForm form_ = kernels::SigmoidForm::kQuadratic;
   float lowest_ = 0;
   float largest_ = 0;  // of the table's basis samples or whites
   std::array<float, 4> limits_{};

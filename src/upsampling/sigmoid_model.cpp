@@ -11,8 +11,9 @@
 namespace spectile {
 namespace {
 
-using kernels::kSigmoidLambda;
 using kernels::kSigmoidNode;
+using kernels::kSigmoidP;
+using kernels::kSigmoidQ;
 using kernels::kSigmoidRow;
 using kernels::kSigmoidWhite;
 
@@ -147,16 +148,31 @@ bool find_coefficients(const SigmoidSums& sums, const Triple& rgb, const Triple&
   return grey > 0 && grey < 1 && sums.continue_from_grey(rgb, grey, c) == 1 && sums.solve(rgb, c);
 }
 
+/// Coefficients of the grey of a component.
+Triple grey_coefficients(double level) {
+  return {0, 0, (level - 0.5) / std::sqrt(level * (1 - level))};
+}
+
 /// True if all nodes have coefficients.
-bool fill_nodes(const SigmoidSums& sums, const Triple& luminance, float* nodes) {
+bool fill_nodes(const SigmoidSums& sums, bool quadratic, const Triple& luminance, float* nodes) {
   bool all = true;
+  std::vector<Triple> found(kCells);
   for (std::size_t most = 0; most < 3; ++most) {
-    for (std::size_t at = 0; at < kCells; ++at) {
-      const Triple q = {centre(at / (kSteps * kSteps), kSteps), centre(at / kSteps % kSteps, kSteps),
-                        centre(at % kSteps, kSteps)};
+    // From the greys outward, so that each node has a neighbour to start from.
+    for (std::size_t at = kCells; at-- > 0;) {
+      const std::size_t i = at / kSteps % kSteps;
+      const std::size_t j = at % kSteps;
+      const Triple q = {centre(at / (kSteps * kSteps), kSteps), centre(i, kSteps), centre(j, kSteps)};
       float* const node = nodes + (most * kCells + at) * kSigmoidNode;
-      Triple c = nearest_start(most, q);
       const Triple rgb = sigmoid_node_rgb(most, q);
+      Triple& c = found[at];
+      if (quadratic) {
+        c = nearest_start(most, q);
+      } else if (j + 1 < kSteps) {
+        c = found[at + 1];
+      } else {
+        c = i + 1 < kSteps ? found[at + kSteps] : grey_coefficients(rgb[most]);
+      }
       const bool solved = find_coefficients(sums, rgb, luminance, c);
       all = all && solved;
       if (solved) store_node(expand(sums, most, q, c), kSteps, node);
@@ -196,7 +212,7 @@ std::array<double, 3> sigmoid_node_rgb(std::size_t most, const std::array<double
 }
 
 std::vector<double> sigmoid_start_nodes(const Bands& bands, const WorkingSpace& space, int steps) {
-  const SigmoidSums sums(bands, space);
+  const SigmoidSums sums(bands, space, SigmoidFunctions::of(std::nullopt));
   const auto n = static_cast<std::size_t>(steps);
   std::vector<double> out;
   for (std::size_t most = 0; most < 3; ++most) {
@@ -210,7 +226,14 @@ std::vector<double> sigmoid_start_nodes(const Bands& bands, const WorkingSpace& 
   return out;
 }
 
-Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space) {
+void set_functions(const SigmoidModel& model, double wavelength_nm, float* row) {
+  const auto [p, q] = model.functions->at_float(std::clamp(wavelength_nm, model.first_nm, model.last_nm));
+  row[kSigmoidP] = p;
+  row[kSigmoidQ] = q;
+}
+
+Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space,
+                                                          const SigmoidFunctions& functions) {
   const std::size_t n = bands.count();
   const std::size_t nodes = 3 * kCells;
   const auto padded = [](std::size_t floats) { return (floats + 15) / 16 * 16; };
@@ -221,24 +244,28 @@ Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, co
   float* const node = model->memory.data();
   float* const rows = node + sizes[0];
   float* const weights = rows + sizes[1];
+  model->functions = &functions;
+  model->first_nm = bands[0].centre_nm;
+  model->last_nm = bands[n - 1].centre_nm;
   for (std::size_t b = 0; b < n; ++b) {
-    const double lambda = sigmoid_lambda(bands[b].centre_nm);
+    const auto [p, q] = functions.at(bands[b].centre_nm);
     float* const row = rows + b * kSigmoidRow;
-    const double power[3] = {lambda * lambda, lambda, 1};
+    const double power[3] = {p, q, 1};
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = space.weights[b][k] * space.white[b];
       weights[4 * b + k] = static_cast<float>(weight);
       for (std::size_t i = 0; i < 3; ++i) row[3 * k + i] = static_cast<float>(4 * weight * power[i]);
     }
-    row[kSigmoidLambda] = static_cast<float>(lambda);
+    set_functions(*model, bands[b].centre_nm, row);
     row[kSigmoidWhite] = static_cast<float>(space.white[b]);
   }
-  const SigmoidSums sums(bands, space);
+  const SigmoidSums sums(bands, space, functions);
   const Triple luminance = {space.rgb_to_xyz[3], space.rgb_to_xyz[4], space.rgb_to_xyz[5]};
-  model->covers_unit_cube = fill_nodes(sums, luminance, node) && has_corners(sums, luminance);
-  model->table = {n, rows, weights, node, kSteps};
-  model->lowest_lambda = rows[kSigmoidLambda];
-  model->highest_lambda = rows[(n - 1) * kSigmoidRow + kSigmoidLambda];
+  model->covers_unit_cube =
+      fill_nodes(sums, functions.are_quadratic(), luminance, node) && has_corners(sums, luminance);
+  const auto form =
+      functions.are_quadratic() ? kernels::SigmoidForm::kQuadratic : kernels::SigmoidForm::kFunctions;
+  model->table = {n, rows, weights, node, kSteps, form};
   return std::shared_ptr<const SigmoidModel>(std::move(model));
 }
 

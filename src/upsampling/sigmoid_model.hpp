@@ -6,6 +6,7 @@
 
 #include "kernels/abi.hpp"
 #include "src/color/working_space.hpp"
+#include "src/spectra/sigmoid_functions.hpp"
 
 namespace spectile {
 
@@ -13,21 +14,21 @@ namespace spectile {
 struct SigmoidModel {
   FloatBuffer memory;
   kernels::SigmoidTable table;
-  /// Least and greatest lambda of the bands; beyond them a spectrum keeps its value at the end.
-  float lowest_lambda = 0;
-  float highest_lambda = 0;
+  const SigmoidFunctions* functions = nullptr;
+  /// Outer centres of the bands; beyond them a spectrum keeps its value there.
+  double first_nm = 0;
+  double last_nm = 0;
   bool covers_unit_cube = false;  ///< every colour with components from 0 to 1 has a sigmoid
 };
 
-/// Lambda of the polynomials. Units: nm.
-constexpr double sigmoid_lambda(double wavelength_nm) {
-  return (wavelength_nm - 550.0) / 150.0;
-}
-
 /// Tables whose sums over the bands give RGB of the space. Errors: kOutOfMemory.
-Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space);
+Result<std::shared_ptr<const SigmoidModel>> sigmoid_model(const Bands& bands, const WorkingSpace& space,
+                                                          const SigmoidFunctions& functions);
 
-/// Coefficients of the start table's nodes for a space, found from grey without any start:
+/// The functions of a band or wavelength in a row of the kernels' table.
+void set_functions(const SigmoidModel& model, double wavelength_nm, float* row);
+
+/// Coefficients of the quadratics' start table's nodes for a space, found from grey without any start:
 /// [3][steps][steps][steps][3]; see sigmoid_node_rgb() for their colours.
 std::vector<double> sigmoid_start_nodes(const Bands& bands, const WorkingSpace& space, int steps);
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/upsampling/sigmoid_model.hpp"
+#include "kernels/abi.hpp"
 
 namespace spectile {
 namespace {
@@ -23,9 +23,10 @@ double largest(const Triple& v) {
 
 }  // namespace
 
-SigmoidSums::SigmoidSums(const Bands& bands, const WorkingSpace& space) {
+SigmoidSums::SigmoidSums(const Bands& bands, const WorkingSpace& space, const SigmoidFunctions& functions)
+    : quadratic_(functions.are_quadratic()) {
   for (std::size_t b = 0; b < bands.count(); ++b) {
-    lambda_.push_back(sigmoid_lambda(bands[b].centre_nm));
+    at_.push_back(functions.at(bands[b].centre_nm));
     weights_.push_back({space.weights[b][0] * space.white[b], space.weights[b][1] * space.white[b],
                         space.weights[b][2] * space.white[b]});
   }
@@ -34,9 +35,9 @@ SigmoidSums::SigmoidSums(const Bands& bands, const WorkingSpace& space) {
 Triple SigmoidSums::at(const Triple& c, Matrix3& jacobian) const {
   Triple sums{};
   jacobian = {};
-  for (std::size_t b = 0; b < lambda_.size(); ++b) {
-    const double l = lambda_[b];
-    const double x = (c[0] * l + c[1]) * l + c[2];
+  for (std::size_t b = 0; b < at_.size(); ++b) {
+    const auto& [p, q] = at_[b];
+    const double x = argument(c, b);
     const double r = 1 / std::sqrt(1 + x * x);
     // From the side where nothing cancels.
     const double sample = x < 0 ? 0.5 * r * r / (1 - x * r) : 0.5 + 0.5 * x * r;
@@ -44,8 +45,9 @@ Triple SigmoidSums::at(const Triple& c, Matrix3& jacobian) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const double w = weights_[b][k];
       sums[k] += w * sample;
-      jacobian[3 * k] += w * slope * l * l;
-      jacobian[3 * k + 1] += w * slope * l;
+      const double by_q = w * slope * q;
+      jacobian[3 * k] += quadratic_ ? by_q * q : w * slope * p;
+      jacobian[3 * k + 1] += by_q;
       jacobian[3 * k + 2] += w * slope;
     }
   }
@@ -54,12 +56,12 @@ Triple SigmoidSums::at(const Triple& c, Matrix3& jacobian) const {
 
 std::array<Matrix3, 3> SigmoidSums::second(const Triple& c) const {
   std::array<Matrix3, 3> out{};
-  for (std::size_t b = 0; b < lambda_.size(); ++b) {
-    const double l = lambda_[b];
-    const double x = (c[0] * l + c[1]) * l + c[2];
+  for (std::size_t b = 0; b < at_.size(); ++b) {
+    const auto& [p, q] = at_[b];
+    const double x = argument(c, b);
     const double r2 = 1 / (1 + x * x);
     const double bend = -1.5 * x * r2 * r2 * std::sqrt(r2);
-    const double power[3] = {l * l, l, 1};
+    const double power[3] = {p, q, 1};
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < 9; ++i) {
         out[k][i] += weights_[b][k] * bend * power[i / 3] * power[i % 3];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/color/working_space.hpp"
+#include "src/spectra/sigmoid_functions.hpp"
 
 namespace spectile {
 
@@ -13,7 +14,7 @@ using Triple = std::array<double, 3>;
 /// Sums over bands of weight times sigmoid, as a function of three coefficients.
 class SigmoidSums {
  public:
-  SigmoidSums(const Bands& bands, const WorkingSpace& space);
+  SigmoidSums(const Bands& bands, const WorkingSpace& space, const SigmoidFunctions& functions);
 
   /// Sums, and their derivatives [rgb][coefficient].
   Triple at(const Triple& c, Matrix3& jacobian) const;
@@ -30,7 +31,13 @@ class SigmoidSums {
   bool solve_from_grey(const Triple& rgb, Triple& c) const;
 
  private:
-  std::vector<double> lambda_;
+  double argument(const Triple& c, std::size_t band) const {
+    const auto& [p, q] = at_[band];
+    // In this order, so that its rounding stays that of the start table.
+    return quadratic_ ? (c[0] * q + c[1]) * q + c[2] : c[0] * p + c[1] * q + c[2];
+  }
+  bool quadratic_;
+  std::vector<std::array<double, 2>> at_;  // p and q of each band
   std::vector<Triple> weights_;
 };
 

@@ -18,7 +18,8 @@ constexpr EnumName<Method> kMethods[] = {{Method::kSmits, "smits"},
                                          {Method::kSmits1999, "smits1999"},
                                          {Method::kSmitsExact, "smits-exact"},
                                          {Method::kMallett, "mallett"},
-                                         {Method::kSigmoid, "sigmoid"}};
+                                         {Method::kSigmoid, "sigmoid"},
+                                         {Method::kSigmoidObserver, "sigmoid-observer"}};
 
 constexpr EnumName<Quantity> kQuantities[] = {{Quantity::kReflectance, "reflectance"},
                                               {Quantity::kUnbounded, "unbounded"},
@@ -136,16 +137,16 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
                                     const UpsamplerOptions& options) {
   const bool published = method == Method::kSmits || method == Method::kSmits1999;
   if (published && (options.light || options.observer != Observer::kCie1931)) {
-    return make_error(
-        ErrorCode::kBadArgument,
-        "{} is published for D65 and the 2 degree observer; smits-exact, mallett and sigmoid take "
-        "others",
-        to_string(method));
+    return make_error(ErrorCode::kBadArgument,
+                      "{} is published for D65 and the 2 degree observer; smits-exact, mallett, sigmoid and "
+                      "sigmoid-observer take others",
+                      to_string(method));
   }
   if ((published || method == Method::kMallett) && !(options.primaries == kRec709)) {
-    return make_error(ErrorCode::kBadArgument,
-                      "{} is published for the primaries of sRGB; smits-exact and sigmoid take others",
-                      to_string(method));
+    return make_error(
+        ErrorCode::kBadArgument,
+        "{} is published for the primaries of sRGB; smits-exact, sigmoid and sigmoid-observer take others",
+        to_string(method));
   }
   const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
   const auto space =
@@ -159,8 +160,9 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   out.rgb_to_xyz_ = space ? space->rgb_to_xyz : srgb_to_xyz_matrix();
   SPECTILE_ASSIGN(out.luminance_, luminance_weights(options, light));
   out.lowest_ = options.negative == NegativeSamples::kKeep ? -std::numeric_limits<float>::infinity() : 0.0F;
-  if (method == Method::kSigmoid) {
-    SPECTILE_ASSIGN(out.sigmoid_, sigmoid_model(bands, *space));
+  if (is_sigmoid(method)) {
+    const auto functions = method == Method::kSigmoid ? std::nullopt : std::optional(options.observer);
+    SPECTILE_ASSIGN(out.sigmoid_, sigmoid_model(bands, *space, SigmoidFunctions::of(functions)));
     return out;
   }
   SPECTILE_ASSIGN(out.basis_, published ? published_basis(method, quantity, bands)

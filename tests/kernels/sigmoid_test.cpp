@@ -13,24 +13,36 @@ namespace {
 
 using kernels::KernelTable;
 using kernels::kLanes;
-using kernels::kSigmoidLambda;
 using kernels::kSigmoidNode;
+using kernels::kSigmoidQ;
 using kernels::kSigmoidRow;
+using kernels::SigmoidForm;
 using kernels::SigmoidTable;
 
+constexpr SigmoidForm kForms[] = {SigmoidForm::kQuadratic, SigmoidForm::kFunctions};
+
+Method method_of(SigmoidForm form) {
+  return form == SigmoidForm::kQuadratic ? Method::kSigmoid : Method::kSigmoidObserver;
+}
+
 /// Tables of 65 bands; the first of them make a table of fewer.
-SigmoidTable sigmoid_table(std::size_t bands) {
-  static const auto upsampler =
-      *Upsampler::create(Method::kSigmoid, Quantity::kIlluminant, *Bands::uniform(400, 725, 5));
-  SigmoidTable table = UpsamplerAccess::sigmoid(upsampler)->table;
+SigmoidTable sigmoid_table(std::size_t bands, SigmoidForm form = SigmoidForm::kQuadratic) {
+  const auto make = [](SigmoidForm of) {
+    return *Upsampler::create(method_of(of), Quantity::kIlluminant, *Bands::uniform(400, 725, 5));
+  };
+  static const Upsampler upsamplers[] = {make(SigmoidForm::kQuadratic), make(SigmoidForm::kFunctions)};
+  SigmoidTable table = UpsamplerAccess::sigmoid(upsamplers[form == SigmoidForm::kFunctions])->table;
   table.bands = bands;
   return table;
 }
 
-/// The published case: sRGB reflectances under D65 over the default bands.
-SigmoidTable default_table() {
-  static const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands());
-  return UpsamplerAccess::sigmoid(upsampler)->table;
+/// sRGB reflectances under D65 over the default bands: of quadratics the published case.
+SigmoidTable default_table(SigmoidForm form = SigmoidForm::kQuadratic) {
+  const auto make = [](SigmoidForm of) {
+    return *Upsampler::create(method_of(of), Quantity::kReflectance, Bands());
+  };
+  static const Upsampler upsamplers[] = {make(SigmoidForm::kQuadratic), make(SigmoidForm::kFunctions)};
+  return UpsamplerAccess::sigmoid(upsamplers[form == SigmoidForm::kFunctions])->table;
 }
 
 /// Three planes of n: triples of telling values (cube corners, edges and faces, near black and near white,
@@ -98,9 +110,12 @@ class SigmoidKernels : public KernelTest {
 };
 
 TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryKindOfColour) {
-  expect_same_solutions(default_table(), sigmoid_colors(4160, 1));
-  for (const std::size_t lanes : kSizes) {
-    expect_same_solutions(default_table(), plain_floats(3 * blocks_for(lanes) * kLanes, 2, -0.05F, 1.05F));
+  for (const SigmoidForm form : kForms) {
+    expect_same_solutions(default_table(form), sigmoid_colors(4160, 1));
+    for (const std::size_t lanes : kSizes) {
+      const Floats rgb = plain_floats(3 * blocks_for(lanes) * kLanes, 2, -0.05F, 1.05F);
+      expect_same_solutions(default_table(form), rgb);
+    }
   }
 }
 
@@ -108,7 +123,7 @@ TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryCountOfBands) {
   const Floats rgb = sigmoid_colors(10 * kLanes, 3);
   for (std::size_t bands = 1; bands <= 65; ++bands) {
     SCOPED_TRACE(bands);
-    expect_same_solutions(sigmoid_table(bands), rgb);
+    for (const SigmoidForm form : kForms) expect_same_solutions(sigmoid_table(bands, form), rgb);
   }
 }
 
@@ -121,7 +136,10 @@ TEST_P(SigmoidKernels, SolutionsAreTheReferencesForTablesOfAnyBits) {
     const Floats rows = floats(9 * kSigmoidRow, 11);
     const Floats weights = floats(4 * 9, 12);
     const Floats nodes = floats(3 * kSteps * kSteps * kSteps * kSigmoidNode, 13);
-    expect_same_solutions({9, rows.data(), weights.data(), nodes.data(), kSteps}, sigmoid_colors(640, 4));
+    for (const SigmoidForm form : kForms) {
+      const SigmoidTable table = {9, rows.data(), weights.data(), nodes.data(), kSteps, form};
+      expect_same_solutions(table, sigmoid_colors(640, 4));
+    }
   }
 }
 
@@ -166,11 +184,13 @@ TEST_P(SigmoidKernels, BlocksAreTheReferencesHoweverStoredAndScaled) {
       const Floats coefficients = telling_coefficients(n, 22);
       const Floats scales = arbitrary_floats(n, 23);
       const float* const c[3] = {coefficients.data(), coefficients.data() + n, coefficients.data() + 2 * n};
-      for (const float* rows : {sigmoid_table(bands).rows, arbitrary_rows.data()}) {
+      for (const float* rows : {sigmoid_table(bands).rows, sigmoid_table(bands, SigmoidForm::kFunctions).rows,
+                                arbitrary_rows.data()}) {
         for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
           for (const bool white : {false, true}) {
             Floats want(n * bands);
-            const kernels::SigmoidSpectra spectra = {c, scale, rows, bands, white};
+            const SigmoidForm form = kForms[(bands + lanes) % 2];
+            const kernels::SigmoidSpectra spectra = {c, scale, rows, bands, white, form};
             ref().sigmoid_blocks(want.data(), spectra, blocks, false);
             for (const bool non_temporal : {false, true}) {
               Floats got(n * bands);
@@ -192,12 +212,12 @@ TEST_P(SigmoidKernels, FusedMultiplyAddsRoundOnce) {
   constexpr std::size_t kBands = 16;
   const Floats lambdas = plain_floats(kBands, 31, 0.5F, 1.5F);
   Floats rows(kBands * kSigmoidRow);
-  for (std::size_t b = 0; b < kBands; ++b) rows[b * kSigmoidRow + kSigmoidLambda] = lambdas[b];
-  rows[kSigmoidLambda] = 1.0F + 0x1p-23F;
+  for (std::size_t b = 0; b < kBands; ++b) rows[b * kSigmoidRow + kSigmoidQ] = lambdas[b];
+  rows[kSigmoidQ] = 1.0F + 0x1p-23F;
   Floats c(3 * kLanesHere);
   std::mt19937 random(32);
   for (std::size_t i = 0; i < kLanesHere; ++i) {
-    const float lambda = rows[i % kBands * kSigmoidRow + kSigmoidLambda];
+    const float lambda = rows[i % kBands * kSigmoidRow + kSigmoidQ];
     const float middle = std::ldexp(random() % 2 == 0 ? 0x1p-24F : -0x1p-24F, static_cast<int>(random() % 2));
     c[i] = middle / lambda;
     c[kLanesHere + i] = 1.0F + 0x1p-23F * static_cast<float>(random() >> 9);
@@ -232,7 +252,8 @@ void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t 
     std::vector<void*> rows(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = memory[run].data() + 35 + b * stride;
     const KernelTable& t = run == 0 ? k() : ref();
-    (t.*kernel)(rows.data(), {planes, scale, sigmoid_table(bands).rows, bands, white}, n);
+    const SigmoidForm form = kForms[n % 2];
+    (t.*kernel)(rows.data(), {planes, scale, sigmoid_table(bands, form).rows, bands, white, form}, n);
   }
   for (std::size_t at = 0; at < memory[0].size(); ++at) {
     const bool in_row = at >= 35 && (at - 35) % stride < bytes && (at - 35) / stride < bands;
@@ -282,7 +303,8 @@ TEST_P(SigmoidKernels, ProjectionsAreTheReferencesAlsoInPlace) {
           float* const out[3] = {dst.data(), dst.data() + n, dst.data() + 2 * n};
           const float* const from[3] = {in_place ? out[0] : in[0], in_place ? out[1] : in[1],
                                         in_place ? out[2] : in[2]};
-          t.sigmoid_project(out, {from, scale, sigmoid_table(bands).rows, bands, lanes % 2 == 0},
+          const SigmoidForm form = kForms[(bands + lanes) % 3 % 2];
+          t.sigmoid_project(out, {from, scale, sigmoid_table(bands, form).rows, bands, lanes % 2 == 0, form},
                             weights.data(), n);
         };
         Floats want(3 * n);

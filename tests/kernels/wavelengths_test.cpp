@@ -57,9 +57,19 @@ TEST_P(WavelengthKernels, FormulasAreTheReferences) {
   const kernels::GaussianLobe lobes[] = {{1, 550, 0.1, 0.02}, {-0.5, 600, 1e3, 1e-3}, {3, 0, 1, 1}};
   expect_same([&](const auto& t, float* out) { t.gaussians(out, lambda.data(), lobes, 3, kAll); },
               "gaussians");
-  const kernels::SigmoidSpectrum spectrum = {{-3, 2, 0.5F}, 402.5F, 697.5F, 3};
+  kernels::SigmoidSpectrum spectrum = {{-3, 2, 0.5F}, 402.5F, 697.5F, 3};
   expect_same([&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), spectrum, kAll); },
               "sigmoid");
+  const Floats pairs = plain_floats(2 * 300, 8, -2.0F, 2.0F);
+  spectrum.form = kernels::SigmoidForm::kFunctions;
+  spectrum.p = {pairs.data(), 400, 1, 299};
+  spectrum.q = {pairs.data() + 2, 400, 1, 299};
+  for (const auto& [low, high] : {std::pair(402.5F, 697.5F), std::pair(400.0F, 699.0F)}) {
+    spectrum.lowest_nm = low;
+    spectrum.highest_nm = high;
+    expect_same([&](const auto& t, float* out) { t.sigmoid_at(out, lambda.data(), spectrum, kAll); },
+                "sigmoid of two functions");
+  }
 }
 
 TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {

@@ -1,15 +1,23 @@
 // From RGB to spectra and back: grids of colours, and how far those that return are from those that went.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <spectile/color/color_difference.hpp>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/upsampling/upsample.hpp>
+#include <string>
 
 #include "tests/support/lanes.hpp"
 
 namespace spectile::test {
 
 using Rgb = std::array<float, 3>;
+
+/// Name of a test's parameter.
+inline std::string sigmoid_method_name(const testing::TestParamInfo<Method>& method) {
+  return method.param == Method::kSigmoid ? "sigmoid" : "sigmoidobserver";
+}
 
 /// The cube at n^3 even points, corners included.
 inline ColorLanes cube_grid(std::size_t n) {

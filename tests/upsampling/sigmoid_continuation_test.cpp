@@ -12,12 +12,12 @@ namespace {
 using kernels::KernelTable;
 using kernels::SigmoidTable;
 
-Upsampler sigmoid_on(const char* bands = "400:700:5", const char* space = "srgb", const char* light = "D65",
-                     Quantity quantity = Quantity::kReflectance) {
+Upsampler make_sigmoid(Method method, const char* bands = "400:700:5", const char* space = "srgb",
+                       const char* light = "D65", Quantity quantity = Quantity::kReflectance) {
   UpsamplerOptions options;
   options.primaries = rgb_space(space)->chromaticities;
   options.light = *illuminant(light);
-  return *Upsampler::create(Method::kSigmoid, quantity, *Bands::parse(bands), options);
+  return *Upsampler::create(method, quantity, *Bands::parse(bands), options);
 }
 
 std::uint64_t unsolved(const Upsampler& upsampler, const ColorLanes& rgb) {
@@ -74,8 +74,9 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
     rgb[kAll + i] = values[i / kCount % kCount];
     rgb[2 * kAll + i] = values[i / kCount / kCount];
   }
-  for (const char* space : {"srgb", "acescg"}) {
-    const auto upsampler = sigmoid_on("400:700:10", space);
+  for (const Method method : {Method::kSigmoid, Method::kSigmoidObserver}) {
+    const char* const space = method == Method::kSigmoid ? "acescg" : "srgb";
+    const auto upsampler = make_sigmoid(method, "400:700:10", space);
     Floats plain = plain_floats(3 * 4160, 2, -0.2F, 1.1F);
     for (const Floats* colors : {&rgb, &plain}) {
       const Reached got = reached(k(), upsampler, *colors);
@@ -87,7 +88,7 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
 }
 
 TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
-  const auto upsampler = sigmoid_on();
+  const auto upsampler = make_sigmoid(Method::kSigmoid);
   Floats rgb(3 * 64);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<float>(i % 64) / 63;
   const Reached got = reached(k(), upsampler, rgb);
@@ -106,7 +107,17 @@ TEST_P(SigmoidContinuation, BrightGreysHaveTheReferencesZeros) {
 
 SPECTILE_FOR_EVERY_ISA(SigmoidContinuation);
 
-TEST(SigmoidContinuation, TheCubeIsReachedWithoutTheQuickSearch) {
+/// Every test runs for both kinds of sigmoid.
+class SigmoidFromGrey : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, SigmoidFromGrey,
+                         testing::Values(Method::kSigmoid, Method::kSigmoidObserver), sigmoid_method_name);
+
+template <class... Arguments>
+Upsampler sigmoid_on(Arguments... arguments) {
+  return make_sigmoid(SigmoidFromGrey::GetParam(), arguments...);
+}
+
+TEST_P(SigmoidFromGrey, TheCubeIsReachedWithoutTheQuickSearch) {
   const auto upsampler = sigmoid_on();
   const auto grid = cube_grid(9);
   for (std::size_t i = 0; i < grid.lanes(); ++i) {
@@ -120,7 +131,7 @@ TEST(SigmoidContinuation, TheCubeIsReachedWithoutTheQuickSearch) {
   }
 }
 
-TEST(SigmoidContinuation, DarkPurplesOverWideRangesReturn) {
+TEST_P(SigmoidFromGrey, DarkPurplesOverWideRangesReturn) {
   const auto rgb = lanes_of({{1.21500016e-5F, 0, 4.55625059e-6F},
                              {9.11250117e-6F, 0, 4.55625059e-6F},
                              {8.61131468e-8F, 0, 1.23018786e-8F}});
@@ -146,7 +157,7 @@ ColorLanes saturated_down_to(int levels) {
   return lanes_of(colors);
 }
 
-TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
+TEST_P(SigmoidFromGrey, NoColourOfTheCubeIsMissedOverWideRanges) {
   for (const char* bands : {"380:780:5", "360:830:5"}) {
     const auto upsampler = sigmoid_on(bands);
     EXPECT_EQ(unsolved(upsampler, saturated_down_to(20)), 0U) << bands;
@@ -155,7 +166,7 @@ TEST(SigmoidContinuation, NoColourOfTheCubeIsMissedOverWideRanges) {
   }
 }
 
-TEST(SigmoidContinuation, WhatMissesIsReported) {
+TEST_P(SigmoidFromGrey, WhatMissesIsReported) {
   // In the cubes of wide primaries.
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid_on("380:780:5", space);
@@ -172,7 +183,7 @@ TEST(SigmoidContinuation, WhatMissesIsReported) {
   }
 }
 
-TEST(SigmoidContinuation, ColoursOfSigmoidsAreSolved) {
+TEST_P(SigmoidFromGrey, ColoursOfSigmoidsAreSolved) {
   // Those of c = (-4.68274, 5.64237, 3.48688); (-5.36523, 9.02882, 0.827151); (-5.21705, 8.56587, 0.0522521).
   EXPECT_EQ(
       unsolved(sigmoid_on("380:780:5", "acescg"), lanes_of({{0.948412836F, 1.00075197F, 0.165978804F}})), 0U);
@@ -184,7 +195,7 @@ TEST(SigmoidContinuation, ColoursOfSigmoidsAreSolved) {
             0U);
 }
 
-TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
+TEST_P(SigmoidFromGrey, ColoursOfRandomSigmoidsAreSolved) {
   // Of moderate coefficients: a colour's own, so it is inside by construction, wherever the cube is.
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 4);
@@ -197,8 +208,8 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
                           static_cast<float>(normal(random))};
       double sum[3] = {};
       for (std::size_t b = 0; b < table.bands; ++b) {
-        const double l = table.rows[b * kernels::kSigmoidRow + kernels::kSigmoidLambda];
-        const double x = (c[0] * l + c[1]) * l + c[2];
+        const float* const row = table.rows + b * kernels::kSigmoidRow;
+        const double x = c[0] * row[kernels::kSigmoidP] + c[1] * row[kernels::kSigmoidQ] + c[2];
         for (std::size_t k = 0; k < 3; ++k) {
           sum[k] += table.weights[4 * b + k] * (0.5 + 0.5 * x / std::sqrt(1 + x * x));
         }
@@ -209,7 +220,7 @@ TEST(SigmoidContinuation, ColoursOfRandomSigmoidsAreSolved) {
   }
 }
 
-TEST(SigmoidContinuation, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
+TEST_P(SigmoidFromGrey, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
   for (const char* space : {"display-p3", "rec2020", "acescg"}) {
     const auto upsampler = sigmoid_on("380:780:5", space);
     const auto grid = cube_grid(17);
@@ -225,12 +236,12 @@ TEST(SigmoidContinuation, WhatIsUnsolvedIsNoFurtherAwayThanItsGrey) {
   }
 }
 
-TEST(SigmoidContinuation, FewBandsAreNoFurtherAwayThanGreyEither) {
+TEST_P(SigmoidFromGrey, FewBandsAreNoFurtherAwayThanGreyEither) {
   const auto few = sigmoid_on("380.3,395.1,401,450.7,455,530,545,560,590,620,622,650,690");
   EXPECT_LE(round_trip(few, lanes_of({{0, 1, 1}})).rgb, 0.8);
 }
 
-TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
+TEST_P(SigmoidFromGrey, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
     const auto upsampler = sigmoid_on("380:780:5", "rec2020", "D65", quantity);
     auto rgb = cube_grid(9);
@@ -242,7 +253,7 @@ TEST(SigmoidContinuation, ColoursInTheCubeOfWidePrimariesAreLimitedToo) {
   }
 }
 
-TEST(SigmoidContinuation, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
+TEST_P(SigmoidFromGrey, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
   const auto upsampler = sigmoid_on("400:700:5", "acescg");
   const auto rgb = cube_grid(9);
   auto moved = cube_grid(9);
@@ -251,7 +262,7 @@ TEST(SigmoidContinuation, WhatIsUnsolvedHasTheSpectrumOfWhereItWouldMove) {
   for (std::size_t i = 0; i < rgb.lanes(); ++i) ASSERT_LE(largest_difference(back[i], moved, i), 2e-3) << i;
 }
 
-TEST(SigmoidContinuation, FiniteColoursOfUnboundedOnesStayFinite) {
+TEST_P(SigmoidFromGrey, FiniteColoursOfUnboundedOnesStayFinite) {
   const auto upsampler = sigmoid_on("400:700:5", "srgb", "D65", Quantity::kUnbounded);
   const auto rgb = lanes_of({{2e38F, 1e38F, 1e38F}, {kMost, 0, 1e38F}, {kMost, kMost, kMost}});
   const auto spectra = spectra_of(upsampler, rgb);

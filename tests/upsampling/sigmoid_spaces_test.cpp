@@ -8,8 +8,13 @@
 namespace spectile::test {
 namespace {
 
+/// Every test runs for both kinds of sigmoid.
+class SigmoidSpaces : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, SigmoidSpaces, testing::Values(Method::kSigmoid, Method::kSigmoidObserver),
+                         sigmoid_method_name);
+
 Upsampler sigmoid_of(Quantity quantity, const Bands& bands = Bands(), const UpsamplerOptions& options = {}) {
-  return *Upsampler::create(Method::kSigmoid, quantity, bands, options);
+  return *Upsampler::create(SigmoidSpaces::GetParam(), quantity, bands, options);
 }
 
 void expect_return(const Upsampler& upsampler, const ColorLanes& rgb) {
@@ -46,7 +51,7 @@ ColorLanes colors_of_sigmoids(const Upsampler& upsampler, std::size_t lanes, dou
   return rgb;
 }
 
-TEST(SigmoidSpaces, CubesReturnForEveryQuantityAndObserver) {
+TEST_P(SigmoidSpaces, CubesReturnForEveryQuantityAndObserver) {
   for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
     for (const Observer observer : {Observer::kCie1931, Observer::kCie1964}) {
       UpsamplerOptions options;
@@ -57,7 +62,7 @@ TEST(SigmoidSpaces, CubesReturnForEveryQuantityAndObserver) {
   }
 }
 
-TEST(SigmoidSpaces, CubesReturnForOtherBands) {
+TEST_P(SigmoidSpaces, CubesReturnForOtherBands) {
   for (const char* text :
        {"380:780:5", "400:700:10", "360:830:10", "390:710:20",
         "400,409,421,434,447,460,473,487,500,512,525,540,552,565,580,595,607,622,640,660,690"}) {
@@ -66,7 +71,7 @@ TEST(SigmoidSpaces, CubesReturnForOtherBands) {
   }
 }
 
-TEST(SigmoidSpaces, CubesReturnUnderOtherLights) {
+TEST_P(SigmoidSpaces, CubesReturnUnderOtherLights) {
   for (const char* light : {"A", "D50", "E", "FL11"}) {
     UpsamplerOptions options;
     options.light = *illuminant(light);
@@ -77,7 +82,7 @@ TEST(SigmoidSpaces, CubesReturnUnderOtherLights) {
   }
 }
 
-TEST(SigmoidSpaces, TheLightsScaleDoesNotCount) {
+TEST_P(SigmoidSpaces, TheLightsScaleDoesNotCount) {
   UpsamplerOptions one;
   UpsamplerOptions other;
   one.light = *illuminant("A");
@@ -89,7 +94,7 @@ TEST(SigmoidSpaces, TheLightsScaleDoesNotCount) {
   }
 }
 
-TEST(SigmoidSpaces, WhatMayExceedOneIsExactlyHomogeneous) {
+TEST_P(SigmoidSpaces, WhatMayExceedOneIsExactlyHomogeneous) {
   for (const Quantity quantity : {Quantity::kUnbounded, Quantity::kIlluminant}) {
     const auto upsampler = sigmoid_of(quantity);
     const auto rgb = random_colors(4099, 2);
@@ -106,7 +111,7 @@ TEST(SigmoidSpaces, WhatMayExceedOneIsExactlyHomogeneous) {
   }
 }
 
-TEST(SigmoidSpaces, DarkColoursOfUnboundedOnesAreAsGoodAsBrightOnes) {
+TEST_P(SigmoidSpaces, DarkColoursOfUnboundedOnesAreAsGoodAsBrightOnes) {
   for (const Quantity quantity : {Quantity::kUnbounded, Quantity::kIlluminant}) {
     const auto upsampler = sigmoid_of(quantity);
     for (const float part : {1e-3F, 1e-6F, 1e-12F, 1e-30F}) {
@@ -118,7 +123,7 @@ TEST(SigmoidSpaces, DarkColoursOfUnboundedOnesAreAsGoodAsBrightOnes) {
   }
 }
 
-TEST(SigmoidSpaces, GreyIsFlatOrTheLightsShapeExactly) {
+TEST_P(SigmoidSpaces, GreyIsFlatOrTheLightsShapeExactly) {
   const auto rgb = lanes_of({{0, 0, 0}, {0.18F, 0.18F, 0.18F}, {1, 1, 1}, {7.5F, 7.5F, 7.5F}});
   const auto flat = spectra_of(sigmoid_of(Quantity::kUnbounded), rgb);
   for (const char* name : {"D65", "A"}) {
@@ -163,7 +168,7 @@ void expect_wide_gamut_returns(const char* space) {
   expect_return(upsampler, rgb);
 }
 
-TEST(SigmoidSpaces, WideGamutColoursReturn) {
+TEST_P(SigmoidSpaces, WideGamutColoursReturn) {
   for (const char* space : {"display-p3", "adobe-rgb"}) expect_wide_gamut_returns(space);
   // Colours outside the cube of sRGB itself.
   const auto srgb = sigmoid_of(Quantity::kReflectance);
@@ -177,11 +182,11 @@ TEST(SigmoidSpaces, WideGamutColoursReturn) {
   expect_return(srgb, gentle);
 }
 
-TEST(SigmoidSpaces, ColoursOfTheWidestGamutsReturn) {
+TEST_P(SigmoidSpaces, ColoursOfTheWidestGamutsReturn) {
   for (const char* space : {"rec2020", "acescg"}) expect_wide_gamut_returns(space);
 }
 
-TEST(SigmoidSpaces, ColoursThatNoReflectanceHasAreReported) {
+TEST_P(SigmoidSpaces, ColoursThatNoReflectanceHasAreReported) {
   const auto upsampler = sigmoid_of(Quantity::kReflectance);
   const auto rgb =
       lanes_of({{0.5F, 0.5F, 0.5F}, {2, 2, 2}, {0.2F, 0.3F, 0.4F}, {-1, -1, -1}, {-1, 2, -1}, {1, 0, 0}});
@@ -198,7 +203,7 @@ TEST(SigmoidSpaces, ColoursThatNoReflectanceHasAreReported) {
   }
 }
 
-TEST(SigmoidSpaces, ColoursOutsideTheCubeReturnOrAreReported) {
+TEST_P(SigmoidSpaces, ColoursOutsideTheCubeReturnOrAreReported) {
   const auto upsampler = sigmoid_of(Quantity::kReflectance);
   const auto rgb = random_colors(2000, 4, -0.2F, 1.2F);
   std::size_t missed = 0;
@@ -212,7 +217,7 @@ TEST(SigmoidSpaces, ColoursOutsideTheCubeReturnOrAreReported) {
   EXPECT_GT(missed, 100U);
 }
 
-TEST(SigmoidSpaces, LightWithoutAnyPositiveComponentIsReportedAndBlack) {
+TEST_P(SigmoidSpaces, LightWithoutAnyPositiveComponentIsReportedAndBlack) {
   for (const Quantity quantity : {Quantity::kUnbounded, Quantity::kIlluminant}) {
     const auto upsampler = sigmoid_of(quantity);
     const auto rgb = lanes_of({{0, 0, 0}, {-1, -2, -3}});
@@ -224,14 +229,14 @@ TEST(SigmoidSpaces, LightWithoutAnyPositiveComponentIsReportedAndBlack) {
   }
 }
 
-TEST(SigmoidSpaces, PrimariesThatSpanNothingAndBandsWithoutLightAreErrors) {
+TEST_P(SigmoidSpaces, PrimariesThatSpanNothingAndBandsWithoutLightAreErrors) {
   UpsamplerOptions options;
   options.primaries = {{0.3, 0.3}, {0.4, 0.4}, {0.5, 0.5}, {0.3127, 0.3290}};
-  EXPECT_EQ(code_of(Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands(), options)),
+  EXPECT_EQ(code_of(Upsampler::create(GetParam(), Quantity::kReflectance, Bands(), options)),
             code(ErrorCode::kBadArgument));
-  EXPECT_EQ(code_of(Upsampler::create(Method::kSigmoid, Quantity::kReflectance,
-                                      *Bands::uniform(900, 1000, 10), {})),
-            code(ErrorCode::kBadArgument));
+  EXPECT_EQ(
+      code_of(Upsampler::create(GetParam(), Quantity::kReflectance, *Bands::uniform(900, 1000, 10), {})),
+      code(ErrorCode::kBadArgument));
 }
 
 }  // namespace

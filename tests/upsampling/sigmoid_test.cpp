@@ -10,9 +10,15 @@
 namespace spectile::test {
 namespace {
 
+/// Every test runs for both kinds of sigmoid.
+class Sigmoid : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, Sigmoid, testing::Values(Method::kSigmoid, Method::kSigmoidObserver),
+                         sigmoid_method_name);
+
 const Upsampler& sigmoid() {
-  static const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands());
-  return upsampler;
+  static const auto quadratic = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, Bands());
+  static const auto observer = *Upsampler::create(Method::kSigmoidObserver, Quantity::kReflectance, Bands());
+  return Sigmoid::GetParam() == Method::kSigmoid ? quadratic : observer;
 }
 
 /// The cube's grid brought near black, or near white.
@@ -39,23 +45,23 @@ void expect_exact(const ColorLanes& rgb, const std::string& what, double differe
   EXPECT_EQ(coefficients_of(sigmoid(), rgb).unsolved.outside, 0U);
 }
 
-TEST(Sigmoid, TheCubesColoursReturn) {
+TEST_P(Sigmoid, TheCubesColoursReturn) {
   expect_exact(cube_grid(17), "17^3");
 }
 
-TEST(Sigmoid, TheCubesColoursReturnOnAFineGrid) {
+TEST_P(Sigmoid, TheCubesColoursReturnOnAFineGrid) {
   expect_exact(cube_grid(65), "65^3");
   expect_exact(random_colors(200000, 1), "random");
 }
 
-TEST(Sigmoid, ColoursNearBlackAndNearWhiteReturn) {
+TEST_P(Sigmoid, ColoursNearBlackAndNearWhiteReturn) {
   for (const float part : {0.3F, 0.1F, 0.01F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-9F}) {
     expect_exact(near_black(17, part), "black + " + std::to_string(part));
     expect_exact(near_white(17, part), "white - " + std::to_string(part));
   }
 }
 
-TEST(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
+TEST_P(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
   const auto rgb = lanes_of({{3.75e-6F, 0, 1.6875e-5F},
                              {3.75e-6F, 0, 1.25e-6F},
                              {5.625e-7F, 0, 1.875e-7F},
@@ -65,7 +71,7 @@ TEST(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
                              {0.999989986F, 1, 0.999998748F},
                              {6.11139628e-9F, 0, 6.82325396e-9F}});
   for (const char* bands : {"380:780:5", "360:830:5", "400:700:10"}) {
-    const auto upsampler = *Upsampler::create(Method::kSigmoid, Quantity::kReflectance, *Bands::parse(bands));
+    const auto upsampler = *Upsampler::create(GetParam(), Quantity::kReflectance, *Bands::parse(bands));
     const RoundTrip result = round_trip(upsampler, rgb);
     // Colours darker than the place of a sample's half come back as the nearest that there is.
     EXPECT_LE(result.rgb, 2e-6) << bands << ", lane " << result.worst;
@@ -74,7 +80,7 @@ TEST(Sigmoid, SaturatedColoursNextToBlackAndWhiteReturnOverOtherBands) {
   }
 }
 
-TEST(Sigmoid, EveryCodeOfEightBitsReturns) {
+TEST_P(Sigmoid, EveryCodeOfEightBitsReturns) {
   // Each code with each of a few others, in all orders.
   const auto linear = [](std::uint32_t code) {
     const double v = code / 255.0;
@@ -97,7 +103,7 @@ TEST(Sigmoid, EveryCodeOfEightBitsReturns) {
   expect_exact(lanes_of(colors), "codes");
 }
 
-TEST(Sigmoid, ColoursWithinAUlpOfEachOtherReturn) {
+TEST_P(Sigmoid, ColoursWithinAUlpOfEachOtherReturn) {
   // On the axes' diagonals and the middle plane, where the search changes its ways.
   std::vector<Rgb> colors;
   for (const float base : {0.01F, 0.25F, 0.5F, 0.75F, 0.99F}) {
@@ -110,10 +116,10 @@ TEST(Sigmoid, ColoursWithinAUlpOfEachOtherReturn) {
     }
   }
   // A place of 0.5, in which the samples are computed, is worth 1e-4 at 0.01.
-  expect_exact(lanes_of(colors), "neighbours", 1.2e-4);
+  expect_exact(lanes_of(colors), "neighbours", 1.5e-4);
 }
 
-TEST(Sigmoid, GreysAreFlat) {
+TEST_P(Sigmoid, GreysAreFlat) {
   std::vector<Rgb> colors;
   for (int i = 0; i <= 4096; ++i) {
     const float v = static_cast<float>(i) / 4096;
@@ -135,7 +141,7 @@ TEST(Sigmoid, GreysAreFlat) {
   }
 }
 
-TEST(Sigmoid, BlackIsExactlyZeroAndWhiteExactlyOne) {
+TEST_P(Sigmoid, BlackIsExactlyZeroAndWhiteExactlyOne) {
   const auto spectra =
       spectra_of(sigmoid(), lanes_of({{0, 0, 0}, {-0.0F, 0, -0.0F}, {1, 1, 1}, {kTiny, 0, kTiny}}));
   for (std::size_t b = 0; b < 60; ++b) {
@@ -146,9 +152,9 @@ TEST(Sigmoid, BlackIsExactlyZeroAndWhiteExactlyOne) {
   }
 }
 
-TEST(Sigmoid, OnlyRedsAndPurplesRiseAtTheEndsOfTheRange) {
-  // Measured: the largest sample over the brightest component: 3.6, and for the others 574, always
-  // at the first or the last band, where the eye sees next to nothing.
+TEST_P(Sigmoid, OnlyRedsAndPurplesRiseAtTheEndsOfTheRange) {
+  // Measured of quadratics: the largest sample over the brightest component: 3.6, and for the others 574,
+  // always at the first or the last band, where the eye sees next to nothing.
   for (const float part : {1.0F, 0.1F, 0.01F, 1e-3F}) {
     const auto rgb = near_black(17, part);
     const auto spectra = spectra_of(sigmoid(), rgb);
@@ -170,22 +176,26 @@ TEST(Sigmoid, OnlyRedsAndPurplesRiseAtTheEndsOfTheRange) {
   }
 }
 
-TEST(Sigmoid, SamplesAreTheFormulasWithinTheirBound) {
+TEST_P(Sigmoid, SamplesAreTheFormulasWithinTheirBound) {
   const auto rgb = cube_grid(17);
   const auto c = coefficients_of(sigmoid(), rgb);
   const auto spectra = spectra_of(sigmoid(), rgb);
+  const SigmoidFunctions& functions =
+      SigmoidFunctions::of(GetParam() == Method::kSigmoid ? std::nullopt : std::optional(Observer::kCie1931));
   double worst = 0;
   for (std::size_t i = 0; i < rgb.lanes(); ++i) {
     for (std::size_t b = 0; b < 60; ++b) {
-      const auto lambda = static_cast<double>(static_cast<float>(sigmoid_lambda(Bands()[b].centre_nm)));
-      const double inner = c.c.at(i, 0) * lambda + c.c.at(i, 1);
-      const double x = inner * lambda + c.c.at(i, 2);
+      const auto [p, q] = functions.at_float(Bands()[b].centre_nm);
+      // The first of two fused sums, as the second takes it.
+      const double inner = functions.are_quadratic() ? (double{c.c.at(i, 0)} * q + c.c.at(i, 1)) * q
+                                                     : double{c.c.at(i, 1)} * q + c.c.at(i, 2);
+      const double x = functions.are_quadratic() ? inner + c.c.at(i, 2) : double{c.c.at(i, 0)} * p + inner;
       const double exact = 0.5 + 0.5 * x / std::sqrt(1 + x * x);
       // Of 2^-24: the inner sum, times lambda, and the outer one through the sigmoid's slope; 2.5 for the
       // root and 0.5 for 1 + x * x under it, times the 0.5 that x * root comes near; 0.5 for the sample
       // itself.
       const double slope = 0.5 / std::pow(1 + x * x, 1.5);
-      const double bound = 0x1p-24 * (slope * (std::abs(inner * lambda) + std::abs(x)) + 0.5 * 3 + 0.5);
+      const double bound = 0x1p-24 * (slope * (std::abs(inner) + std::abs(x)) + 0.5 * 3 + 0.5);
       worst = std::max(worst, std::abs(spectra.at(i, b) - exact) / bound);
     }
   }
@@ -193,7 +203,7 @@ TEST(Sigmoid, SamplesAreTheFormulasWithinTheirBound) {
   EXPECT_GE(worst, 0.5) << "the bound is far too wide";
 }
 
-TEST(Sigmoid, HalfInverseRootIsWithinItsBound) {
+TEST(SigmoidRoot, HalfInverseRootIsWithinItsBound) {
   double worst = 0;
   const auto check = [&](std::uint32_t bits) {
     const auto t = std::bit_cast<float>(bits);
@@ -208,7 +218,7 @@ TEST(Sigmoid, HalfInverseRootIsWithinItsBound) {
   EXPECT_LE(worst, 3.1 * 0x1p-24);
 }
 
-TEST(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {
+TEST_P(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {
   auto rgb = random_colors(4099, 2);
   const auto clean = spectra_of(sigmoid(), rgb);
   for (std::size_t i = 0; i < rgb.lanes(); i += 3)
@@ -225,7 +235,7 @@ TEST(Sigmoid, WhatIsNotFiniteIsNanInEveryBandAndItsNeighboursStay) {
   }
 }
 
-TEST(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
+TEST_P(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
   auto rgb = random_colors(4099, 3, -0.1F, 1.1F);
   const auto want = spectra_of(sigmoid(), rgb, {1, 16384});
   const auto coefficients_want = coefficients_of(sigmoid(), rgb, {1, 16384});
@@ -247,7 +257,7 @@ TEST(Sigmoid, ResultsDependNeitherOnThreadsNorOnTilesNorOnStores) {
   }
 }
 
-TEST(Sigmoid, EveryLaneIsItsOwnForEverySize) {
+TEST_P(Sigmoid, EveryLaneIsItsOwnForEverySize) {
   for (const std::size_t lanes : kSizes) {
     const auto rgb = random_colors(lanes, 4, -0.2F, 1.2F);
     const auto spectra = spectra_of(sigmoid(), rgb);
@@ -258,7 +268,7 @@ TEST(Sigmoid, EveryLaneIsItsOwnForEverySize) {
   }
 }
 
-TEST(Sigmoid, BatchesThatDoNotFitAreErrors) {
+TEST_P(Sigmoid, BatchesThatDoNotFitAreErrors) {
   const auto rgb = random_colors(17, 5);
   auto c = *CoefficientLanes::create(sigmoid(), 16);
   EXPECT_EQ(code_of(coefficients(sigmoid(), rgb.view(), c)), code(ErrorCode::kSizeMismatch));

@@ -176,8 +176,8 @@ class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
 };
 
 /// The spectrum of an RGB colour as an upsampling method defines it between and beyond the centres of its
-/// bands (see rgb_spectrum()): a table, linear in between, or a sigmoid of a quadratic, times a light's table
-/// where it is a light; beyond the outer centres it keeps the value there.
+/// bands (see rgb_spectrum()): a table, linear in between, or a sigmoid, times a light's table where it is a
+/// light; beyond the outer centres it keeps the value there.
 class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
  public:
   /// The parts that make it up.
@@ -188,6 +188,7 @@ class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
     double first_nm = 0;  ///< the outer centres
     double last_nm = 0;
     std::optional<std::array<float, 3>> sigmoid;  ///< coefficients; none for a table alone
+    std::optional<Observer> observer;             ///< whose functions the sigmoid is of; none for a quadratic
     float scale = 1;                              ///< of the sigmoid
     /// Samples at the centres: of the spectrum itself, or of the light that a sigmoid is multiplied by. May
     /// be null for a sigmoid.
@@ -206,6 +207,8 @@ class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
   bool is_sigmoid() const noexcept { return parts_.sigmoid.has_value(); }
   /// Of a sigmoid only.
   const std::array<float, 3>& coefficients() const noexcept { return *parts_.sigmoid; }
+  /// Whose functions the sigmoid is of; none for a quadratic.
+  std::optional<Observer> observer() const noexcept { return parts_.observer; }
   float scale() const noexcept { return parts_.scale; }
   const MeasuredSpectrum* table() const noexcept { return parts_.table.get(); }
   double first_nm() const noexcept { return parts_.first_nm; }

@@ -25,7 +25,13 @@ enum class Method {
   kSmitsExact,  ///< the smoothest spectra whose colours are exactly the corners of the RGB cube
   kMallett,  ///< three spectra that sum to 1, made exact for the bands; linear, so it commutes with filters
   kSigmoid,  ///< a sigmoid of a quadratic: smooth, between 0 and 1, exact, also for colours outside sRGB
+  kSigmoidObserver,  ///< the same of two functions made of the observer's: nearer to measured reflectances
 };
+
+/// True for the methods whose spectra are sigmoids, of three coefficients.
+constexpr bool is_sigmoid(Method method) noexcept {
+  return method == Method::kSigmoid || method == Method::kSigmoidObserver;
+}
 
 /// The method where none is asked for. See docs/methods.md for the table by which it was chosen.
 inline constexpr Method kDefaultMethod = Method::kSmitsExact;
@@ -50,8 +56,8 @@ enum class StoreHint {
   kStreaming,  ///< non-temporal stores, which bypass the caches
 };
 
-/// Name and back: "smits", "smits1999", "smits-exact", "mallett", "sigmoid"; "reflectance", "unbounded",
-/// "illuminant". Errors: kUnknownName, listing the names.
+/// Name and back: "smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer";
+/// "reflectance", "unbounded", "illuminant". Errors: kUnknownName, listing the names.
 Result<Method> parse_method(std::string_view name);
 Result<Quantity> parse_quantity(std::string_view name);
 /// Names that parse_method() knows.
@@ -62,7 +68,7 @@ std::string_view to_string(Quantity quantity);
 /// Viewing conditions under which the spectra must have the colours asked for.
 struct UpsamplerOptions {
   NegativeSamples negative = NegativeSamples::kClampToZero;
-  Chromaticities primaries = kRec709;     ///< of the RGB; only those of smits-exact and sigmoid are free
+  Chromaticities primaries = kRec709;     ///< of the RGB; free for smits-exact and the sigmoids
   std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
 };
@@ -79,7 +85,9 @@ struct SigmoidModel;
 /// 32-sample refinement and its factors: Pharr, Jakob, Humphreys, Physically Based Rendering, 3rd edition;
 /// Mallett, Yuksel, Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; Jakob,
 /// Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38(2),
-/// 2019.
+/// 2019. `sigmoid-observer` is our own: their sigmoid of other functions, the first order of the spectra with
+/// the least slope of Burns, Numerical methods for smoothest reflectance reconstruction, Color Research and
+/// Application 45(1), 2020.
 class Upsampler {
  public:
   /// Errors: kOutOfMemory; kBadArgument for options that the method is not made for, and where there are no
@@ -96,7 +104,7 @@ class Upsampler {
   /// Minimum of the samples: 0, or minus infinity when negative ones are kept.
   float lowest() const noexcept { return lowest_; }
   /// Shapes: [bands][7], in double before rounding to the kernels' float; white, cyan, magenta, yellow, red,
-  /// green, blue. Empty for the sigmoid.
+  /// green, blue. Empty for the sigmoids.
   std::span<const std::array<double, 7>> basis() const noexcept { return basis_; }
   /// XYZ of RGB 1, 1, 1, and the matrix that goes with it: see above.
   const Matrix3& rgb_to_xyz() const noexcept { return rgb_to_xyz_; }

@@ -36,7 +36,7 @@ void add_alpha_option(const Command& command, MethodArguments& a) {
 void add_method_option(const Command& command, std::string& method) {
   command
       .option("--method", method, "NAME", kColorGroup,
-              "smits-exact, sigmoid, mallett, smits or smits1999 (docs/methods.md)")
+              fmt::format("{} (docs/methods.md)", fmt::join(method_names(), ", ")))
       .one_of(method_names())
       .show_default();
 }
@@ -96,7 +96,7 @@ ColorHandling color_handling(const MethodOptions& options) {
   out.negative = options.negative;
   out.out_of_gamut = options.out_of_gamut.value_or(
       options.negative == NegativeInput::kKeep ? GamutPolicy::kKeep : GamutPolicy::kClip);
-  out.clips_above_one = options.method == Method::kSigmoid && out.out_of_gamut == GamutPolicy::kClip;
+  out.clips_above_one = is_sigmoid(options.method) && out.out_of_gamut == GamutPolicy::kClip;
   return out;
 }
 

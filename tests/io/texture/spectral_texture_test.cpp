@@ -7,6 +7,7 @@
 #include <limits>
 #include <spectile/image/spectral_texture.hpp>
 
+#include "src/spectra/sigmoid_functions.hpp"
 #include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
@@ -123,7 +124,7 @@ TEST_P(Texture, BetweenCentresCompactImagesFollowTheirMethod) {
   const SampledSpectra own = evaluate(open("compact.exr"), kWhole, {497.5, 512.5});
   const SampledSpectra between = evaluate(open("compact.exr"), kWhole, {500});
   const test::Picture c = test::read_picture(folder_ / "compact.exr");
-  const bool sigmoid = GetParam().method == Method::kSigmoid;
+  const bool sigmoid = is_sigmoid(GetParam().method);
   for (std::size_t i = 0; i < own.lanes(); ++i) {
     const auto at = [&](const char* name) { return c.planes.at(name).at(i); };
     const double first = static_cast<double>(own.at(i, 0));
@@ -131,19 +132,19 @@ TEST_P(Texture, BetweenCentresCompactImagesFollowTheirMethod) {
     double want = (5 * first + next) / 6;
     double bound = 1e-6 * (std::abs(first) + std::abs(next));
     if (sigmoid) {
-      const double lambda = (500.0 - 550) / 150;
-      const double x = (at("spectile.c0") * lambda + at("spectile.c1")) * lambda + at("spectile.c2");
+      const SigmoidFunctions& functions = SigmoidFunctions::of(
+          GetParam().method == Method::kSigmoid ? std::nullopt : std::optional(Observer::kCie1931));
       const double scale = c.planes.contains("spectile.scale") ? at("spectile.scale") : 1;
       // The white of a light is linear in between; at the centres it is what sample over scale and sigmoid
       // is.
       const auto shape = [&](double nm) {
-        const double l = (nm - 550) / 150;
-        const double p = (at("spectile.c0") * l + at("spectile.c1")) * l + at("spectile.c2");
-        return 0.5 + p / (2 * std::sqrt(1 + p * p));
+        const auto [p, q] = functions.at(nm);
+        const double x = at("spectile.c0") * p + at("spectile.c1") * q + at("spectile.c2");
+        return 0.5 + x / (2 * std::sqrt(1 + x * x));
       };
       if (scale == 0 || shape(497.5) < 1e-3 || shape(512.5) < 1e-3) continue;
       const double white = (5 * first / shape(497.5) + next / shape(512.5)) / (6 * scale);
-      want = scale * white * (0.5 + x / (2 * std::sqrt(1 + x * x)));
+      want = scale * white * shape(500);
       bound = std::abs(scale) * 1e-4;
     } else if (first <= 0 || next <= 0) {
       continue;  // limited to 0, which the mixture in between need not be

@@ -155,7 +155,7 @@ class ExpandJob : public io::FilteredJob {
 
 /// Says where the sigmoid's spectra had to be continued beyond the bands that they were made for.
 void note_continued(const Upsampler& upsampler, const Bands& bands, std::vector<std::string>& notes) {
-  if (upsampler.method() != Method::kSigmoid) return;
+  if (!is_sigmoid(upsampler.method())) return;
   const double first = upsampler.bands()[0].centre_nm;
   const double last = upsampler.bands()[upsampler.bands().count() - 1].centre_nm;
   if (bands[0].centre_nm >= first && bands[bands.count() - 1].centre_nm <= last) return;

@@ -11,7 +11,7 @@
 namespace spectile::io {
 namespace {
 
-// Says which rules the coefficients follow: lambda is (wavelength - 550 nm) / 150 nm.
+// Says which rules the coefficients follow: those of kernels/abi/upsampling.hpp.
 constexpr const char* kLayout = "1.0";
 // Says what alpha means to spectra and coefficients.
 constexpr const char* kAlpha = "spectileAlpha";

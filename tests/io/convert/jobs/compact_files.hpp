@@ -40,7 +40,7 @@ inline std::vector<Kind> all_kinds() {
 /// Those that mix basis spectra, or the others.
 inline std::vector<Kind> kinds_that(bool mix_bases) {
   std::vector<Kind> out = all_kinds();
-  std::erase_if(out, [=](const Kind& kind) { return (kind.method == Method::kSigmoid) == mix_bases; });
+  std::erase_if(out, [=](const Kind& kind) { return is_sigmoid(kind.method) == mix_bases; });
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <spectile/image/image.hpp>
 
+#include "src/spectra/sigmoid_functions.hpp"
 #include "tests/io/convert/jobs/compact_files.hpp"
 
 namespace spectile {
@@ -75,7 +76,7 @@ TEST_P(Expand, GivesTheBitsOfUpsamplingDirectly) {
     }
   }
   // The test has pixels that a half cannot hold, but for reflectances of sigmoids, which end at 1.
-  const bool ends = GetParam().method == Method::kSigmoid && GetParam().quantity == Quantity::kReflectance;
+  const bool ends = is_sigmoid(GetParam().method) && GetParam().quantity == Quantity::kReflectance;
   EXPECT_EQ(limited_ == 0, ends);
 }
 
@@ -121,7 +122,7 @@ TEST_P(Expand, PixelsLimitedInHalfAreThoseWithALargerSampleInFloat) {
   EXPECT_EQ(half->clamped_pixels, limited);
   EXPECT_EQ(full->clamped_pixels, 0U);
   // Kept negatives are there to be limited; a sigmoid has none.
-  EXPECT_EQ(least < -65504, GetParam().method != Method::kSigmoid);
+  EXPECT_EQ(least < -65504, !is_sigmoid(GetParam().method));
 }
 
 TEST_P(Expand, GivesTheBitsForAnotherLightOrObserver) {
@@ -168,19 +169,17 @@ struct Sample {
   double bound;
 };
 
-/// The recorded convention, in double: lambda = (nm - 550) / 150, sample = 1/2 + x / (2 sqrt(1 + x^2)).
-Sample sigmoid(const test::Picture& compact, int x, int y, double nm) {
-  const double lambda = (nm - 550) / 150;
-  double p = 0;
-  double terms = 0;
-  for (const char* name : {"spectile.c0", "spectile.c1", "spectile.c2"}) {
-    const double c = compact.at(name, x, y);
-    p = p * lambda + c;
-    terms = terms * std::abs(lambda) + std::abs(c);
-  }
+/// The recorded convention, in double: sample = 1/2 + x / (2 sqrt(1 + x^2)), x = c0 p + c1 q + c2.
+Sample sigmoid(const test::Picture& compact, int x, int y, double nm, const SigmoidFunctions& functions) {
+  const auto [p, q] = functions.at(nm);
+  const double of[] = {compact.at("spectile.c0", x, y) * p, compact.at("spectile.c1", x, y) * q,
+                       compact.at("spectile.c2", x, y)};
+  const double argument = of[0] + of[1] + of[2];
+  const double terms = std::abs(of[0]) + std::abs(of[1]) + std::abs(of[2]);
   const double scale = compact.planes.contains("spectile.scale") ? compact.at("spectile.scale", x, y) : 1;
-  // Three roundings of the polynomial's terms, where the slope is 1/2 at most, and some of the result.
-  return {scale * (0.5 + p / (2 * std::sqrt(1 + p * p))), std::abs(scale) * (1e-6 + 0x1.8p-24 * terms)};
+  // Three roundings of the argument's terms, where the slope is 1/2 at most, and some of the result.
+  return {scale * (0.5 + argument / (2 * std::sqrt(1 + argument * argument))),
+          std::abs(scale) * (1e-6 + 0x1.8p-24 * terms)};
 }
 
 TEST_P(ExpandSigmoids, ForOtherBandsFollowTheRecordedConvention) {
@@ -203,6 +202,8 @@ TEST_P(ExpandSigmoids, ForOtherBandsFollowTheRecordedConvention) {
   const test::Picture compact = test::read_picture(compact_);
   const test::Picture out = test::read_picture(out_);
   const bool emits = GetParam().quantity == Quantity::kIlluminant;
+  const SigmoidFunctions& functions = SigmoidFunctions::of(
+      GetParam().method == Method::kSigmoid ? std::nullopt : std::optional(Observer::kCie1931));
   for (const Band& band : expand.bands->list()) {
     const std::string channel = fmt::format("{}.{},{:06.0f}nm", emits ? "S0" : "T",
                                             std::floor(band.centre_nm), std::fmod(band.centre_nm, 1) * 1e6);
@@ -212,7 +213,7 @@ TEST_P(ExpandSigmoids, ForOtherBandsFollowTheRecordedConvention) {
         emits ? light.integral(band.lower_nm, band.upper_nm) / band.width_nm() / luminance : 1;
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < 67; ++x) {
-        const Sample want = sigmoid(compact, x, y, nm);
+        const Sample want = sigmoid(compact, x, y, nm, functions);
         EXPECT_NEAR(out.at(channel, x, y), white * want.value, white * want.bound + 1e-30)
             << channel << " " << x;
       }
