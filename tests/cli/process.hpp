@@ -25,6 +25,14 @@
 
 namespace spectile::test {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// How a process ended.
 struct Outcome {
   int exit = -1;      ///< -1 when a signal ended it
@@ -94,7 +102,7 @@ class Tool {
     return pid_ > 0;
   }
   /// Waits for the end, at most so long; then kills.
-  Outcome finish(std::chrono::seconds limit = std::chrono::seconds(60)) {
+  Outcome finish(std::chrono::seconds limit = std::chrono::seconds(kSanitized ? 600 : 60)) {
     const auto end = std::chrono::steady_clock::now() + limit;
     Outcome outcome;
     while (running()) {
@@ -164,14 +172,6 @@ inline std::vector<nlohmann::json> json_lines(const std::string& text) {
   }
   return out;
 }
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// Limits the address space, but under a sanitizer, which reserves most of it.
 inline bool limit_memory(rlim_t bytes) {
