@@ -32,6 +32,8 @@ namespace {
 /// oneTBB has its workers make each other, and ends the process where one of them cannot.
 class Workers {
  public:
+  Workers() { created_.give(); }
+
   /// Sees to it that calls can run on `threads` threads, the calling one among them. Returns how many there
   /// are.
   int make(int threads) {
@@ -50,61 +52,59 @@ class Workers {
   bool failed() const noexcept { return failed_; }
 
  private:
-  /// Where workers wait for each other.
-  struct Gate {
-    Gate() { users.give(); }
-    Gate(const Gate&) = delete;
-    Gate& operator=(const Gate&) = delete;
-    ~Gate() { users.take(); }
-    std::mutex mutex;
-    std::condition_variable changed;
-    int inside = 0;
-    bool open = false;
-    Handover users;  // as their counted references order them
-  };
-
   /// Keeps every worker busy until the last one is there, so that none of them makes the next. Returns false
   /// where the system refuses one; ready_ then counts those that were made.
   bool grow(int threads) {
     const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-    std::shared_ptr<Gate> gate;
+    const int round = begin_round();
     std::vector<std::unique_ptr<tbb::task_arena>> arenas;
     int made = 1;
     bool refused = false;
     try {
-      gate = std::make_shared<Gate>();
       for (; made < threads; ++made) {
         arenas.push_back(std::make_unique<tbb::task_arena>(2, 1));
-        arenas.back()->enqueue([gate] {
-          gate->users.take();
-          const GiveAtEnd done(gate->users);
-          std::unique_lock lock(gate->mutex);
-          ++gate->inside;
-          gate->changed.notify_all();
-          gate->changed.wait(lock, [&gate] { return gate->open; });
-        });
-        std::unique_lock lock(gate->mutex);
+        arenas.back()->enqueue([this, round] { wait_inside(round); });
+        std::unique_lock lock(gate_);
         // Workers that are busy elsewhere in this process exist already.
         constexpr auto kLongest = std::chrono::milliseconds(100);
-        if (!gate->changed.wait_for(lock, kLongest, [&] { return gate->inside == made; })) break;
+        if (!changed_.wait_for(lock, kLongest, [&] { return inside_ == made; })) break;
       }
     } catch (const std::exception&) {
       refused = true;
     }
-    if (gate) {
-      const GiveAtEnd done(gate->users);
-      const std::scoped_lock lock(gate->mutex);
-      gate->open = true;
-      gate->changed.notify_all();
-    }
+    begin_round();
     if (refused) ready_.store(std::max(made, ready_.load()), std::memory_order_release);
     return !refused;
+  }
+
+  /// Lets those go who wait in the last round. Returns the new one's number.
+  int begin_round() {
+    const std::scoped_lock lock(gate_);
+    inside_ = 0;
+    changed_.notify_all();
+    return ++round_;
+  }
+
+  /// Waits for the end of a round; one that begins after it does not wait.
+  void wait_inside(int round) {
+    created_.take();
+    std::unique_lock lock(gate_);
+    if (round_ != round) return;
+    ++inside_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return round_ != round; });
   }
 
   std::atomic<int> ready_ = 1;  // threads that calls can run on
   std::atomic<bool> failed_ = false;
   std::mutex mutex_;
+  // Where workers wait for each other.
+  std::mutex gate_;
+  std::condition_variable changed_;
+  int inside_ = 0;
+  int round_ = 0;
+  Handover created_;
 };
 
 Workers& workers() {

@@ -37,6 +37,8 @@ class Census {
 
   void add(const float* const rgb[3], std::size_t width) {
     for (std::size_t x = 0; x < width; ++x) {
+      // The caller refuses the image for it.
+      if (std::isnan(rgb[0][x] + rgb[1][x] + rgb[2][x])) continue;
       std::size_t index = 0;
       Cell one = {1, {}};
       for (std::size_t c = 0; c < 3; ++c) {
