@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -87,15 +88,22 @@ struct Batch {
 /// into it.
 class OutputFolder {
  public:
-  OutputFolder() = default;
+  OutputFolder() { current_ = this; }
   ~OutputFolder() {
-    std::error_code error;
-    for (const fs::path& folder : made_) {
-      if (!fs::remove(folder, error) || error) return;  // it is not empty
-    }
+    current_ = nullptr;
+    remove_empty();
   }
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// Removes what was made and is empty. Takes no memory.
+  void remove_empty() const noexcept {
+    for (const fs::path& folder : made_) {
+      if (::rmdir(folder.c_str()) != 0) return;  // it is not empty
+    }
+  }
+  /// The one of this process, or null.
+  static const OutputFolder* current() noexcept { return current_; }
 
   /// `stays`: other processes may be about to write there. Throws: Stop.
   void make(const std::string& path, bool stays) {
@@ -115,6 +123,7 @@ class OutputFolder {
   }
 
  private:
+  inline static std::atomic<const OutputFolder*> current_ = nullptr;
   std::vector<fs::path> made_;  // the innermost first
 };
 
@@ -219,6 +228,10 @@ void ImageCommand::apply(ImageOptions& out) const {
   apply_common(common);
   apply_write_options(write, common, out);
   out.region = region_of(batch);
+}
+
+void remove_empty_output_folder() noexcept {
+  if (const OutputFolder* const folder = OutputFolder::current()) folder->remove_empty();
 }
 
 int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction& progress,

@@ -52,6 +52,10 @@ struct Shared {
 int run_jobs(const ImageCommand& command, const Shared& shared, ProgressFunction& progress,
              const Conversion& convert);
 
+/// Removes the folder of outputs, if this run made it and nothing came into it: for where the process ends at
+/// once. Takes no memory.
+void remove_empty_output_folder() noexcept;
+
 /// The notes of lights, each once; null for none.
 std::vector<std::string> light_notes(const std::vector<const NamedLight*>& lights);
 

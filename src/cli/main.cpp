@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/jobs.hpp"
 #include "src/cli/options/command.hpp"
 #include "src/cli/output/messages.hpp"
 #include "src/cli/output/print.hpp"
@@ -70,6 +71,7 @@ void open_standard_descriptors() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
+    spectile::cli::remove_empty_output_folder();
     spectile::cli::print_error_verbatim(spectile::cli::kOutOfMemoryText);
     std::_Exit(spectile::cli::kNoRoom);
   } catch (const std::exception& error) {

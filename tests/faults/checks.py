@@ -19,7 +19,7 @@ def expected_reason(function, error):
     return re.escape(os.strerror(error or errno.ENOSPC))
 
 
-def check_targets(tool, scenario, folder, before, after, clean, finished, ends_at_once=False):
+def check_targets(tool, scenario, folder, before, after, clean, finished):
     """Files that are neither what was there nor what a run without a fault writes; files that should not be there."""
     problems, whole = [], 0
     for path in [*scenario.targets, *scenario.special]:
@@ -40,10 +40,7 @@ def check_targets(tool, scenario, folder, before, after, clean, finished, ends_a
     for path in sorted(after.keys() - before.keys() - clean.keys() - set(scenario.special)):
         problems.append(("leftover", path))
     for path, contents in after.items():
-        # A folder that was made for outputs goes again where nothing came into it; but not where memory ends inside
-        # Eigen, which ends the process (src/base/eigen.hpp).
-        if ends_at_once:
-            break
+        # A folder that was made for outputs goes again where nothing came into it.
         if contents is None and path not in before and not any(name.startswith(path + "/") for name in after):
             problems.append(("leftover", f"{path}/, empty"))
     for path, contents in before.items():
@@ -93,8 +90,7 @@ def check_run(tool, scenario, folder, outcome, before, after, clean, clean_outco
         more, whole = check_targets(tool, scenario, folder, before, after, clean, False)
         return problems + [problem for problem in more if problem[0] == "torn"], whole
     finished = outcome.exit == 0
-    ends_at_once = function == "malloc" and outcome.err == "spectile: not enough memory\n"
-    problems, whole = check_targets(tool, scenario, folder, before, after, clean, finished, ends_at_once)
+    problems, whole = check_targets(tool, scenario, folder, before, after, clean, finished)
     if finished:
         if scenario.prints and outcome.out != clean_outcome.out:
             problems.append(("wrong", f"exit 0, but it printed {outcome.out[:300]!r}"))
