@@ -94,8 +94,8 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   Operation& solve =
       add_operation(to, "upsampling", name_of(upsampler, "find coefficients"), "colour", {3, 1}, {3, 1});
   solve.unit = "1e-6 of the colour";
-  // Bands on which some colours have no sigmoid are bounded by 1e-5 and their sums' rounding where they are
-  // not reported.
+  // Bands on which some colours have no sigmoid are bounded by 1e-5 where they are not reported; by functions
+  // of tables also by the rounding of their sums, since few places of them may be nearly on a line.
   solve.bound = model.covers_unit_cube ? 1 : 10;
   solve.fill = uniform_values(3, 0.0F, 1.0F);
   // A start from the table (three gathers of 32 numbers, a polynomial of second order) and two steps, each
@@ -119,13 +119,14 @@ void add_search(std::vector<Operation>& to, const Shared& upsampler) {
   };
   const kernels::SigmoidTable table = model.table;
   const bool covers_unit_cube = model.covers_unit_cube;
+  const bool exact = covers_unit_cube || table.form == kernels::SigmoidForm::kQuadratic;
   solve.error = [=](const double* rgb, const double* c, double /*tiny*/) {
     if (!finite3(rgb)) return std::isnan(c[0]) ? 0.0 : kBeyond;
     if (*std::min_element(rgb, rgb + 3) < 0 || *std::max_element(rgb, rgb + 3) > 1) return kOutOfDomain;
     // Bands that have no sigmoid for some colours report them.
     if (std::isnan(c[0])) return covers_unit_cube ? kBeyond : kOutOfDomain;
     const auto sum = sigmoid_color(table, c);
-    const auto rounding = covers_unit_cube ? std::array<double, 3>{} : sum_rounding(table, c);
+    const auto rounding = exact ? std::array<double, 3>{} : sum_rounding(table, c);
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(sum[k] - rgb[k]) - rounding[k]);
     return worst / 1e-6;

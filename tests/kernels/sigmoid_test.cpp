@@ -106,7 +106,8 @@ class SigmoidKernels : public KernelTest {
   }
 
   template <class Sample, class Kernel>
-  void expect_same_rows(Kernel kernel, std::size_t n, std::size_t bands, const float* scale, bool white);
+  void expect_same_rows(Kernel kernel, std::size_t n, std::size_t bands, const float* scale, bool white,
+                        SigmoidForm form);
 };
 
 TEST_P(SigmoidKernels, SolutionsAreTheReferencesForEveryKindOfColour) {
@@ -189,13 +190,15 @@ TEST_P(SigmoidKernels, BlocksAreTheReferencesHoweverStoredAndScaled) {
         for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
           for (const bool white : {false, true}) {
             Floats want(n * bands);
-            const SigmoidForm form = kForms[(bands + lanes) % 2];
-            const kernels::SigmoidSpectra spectra = {c, scale, rows, bands, white, form};
-            ref().sigmoid_blocks(want.data(), spectra, blocks, false);
-            for (const bool non_temporal : {false, true}) {
-              Floats got(n * bands);
-              k().sigmoid_blocks(got.data(), spectra, blocks, non_temporal);
-              ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes, " << non_temporal;
+            for (const SigmoidForm form : kForms) {
+              const kernels::SigmoidSpectra spectra = {c, scale, rows, bands, white, form};
+              ref().sigmoid_blocks(want.data(), spectra, blocks, false);
+              for (const bool non_temporal : {false, true}) {
+                Floats got(n * bands);
+                k().sigmoid_blocks(got.data(), spectra, blocks, non_temporal);
+                ASSERT_TRUE(same_bits(got, want))
+                    << bands << " bands, " << lanes << " lanes, " << non_temporal;
+              }
             }
           }
         }
@@ -239,7 +242,7 @@ TEST_P(SigmoidKernels, FusedMultiplyAddsRoundOnce) {
 
 template <class Sample, class Kernel>
 void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t bands, const float* scale,
-                                      bool white) {
+                                      bool white, SigmoidForm form) {
   constexpr unsigned char kSentinel = 0xA5;
   const std::size_t padded = blocks_for(n) * kLanes;
   const Floats c = telling_coefficients(padded, static_cast<std::uint32_t>(n));
@@ -252,7 +255,6 @@ void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t 
     std::vector<void*> rows(bands);
     for (std::size_t b = 0; b < bands; ++b) rows[b] = memory[run].data() + 35 + b * stride;
     const KernelTable& t = run == 0 ? k() : ref();
-    const SigmoidForm form = kForms[n % 2];
     (t.*kernel)(rows.data(), {planes, scale, sigmoid_table(bands, form).rows, bands, white, form}, n);
   }
   for (std::size_t at = 0; at < memory[0].size(); ++at) {
@@ -278,8 +280,10 @@ void SigmoidKernels::expect_same_rows(Kernel kernel, std::size_t n, std::size_t 
 TEST_P(SigmoidKernels, RowsAreTheReferencesAtAnyAddressAndLength) {
   const Floats scales = arbitrary_floats(4160, 41);
   const auto both = [&](std::size_t n, std::size_t bands, const float* scale, bool white) {
-    expect_same_rows<float>(&KernelTable::sigmoid_rows_float, n, bands, scale, white);
-    expect_same_rows<std::uint16_t>(&KernelTable::sigmoid_rows_half, n, bands, scale, white);
+    for (const SigmoidForm form : kForms) {
+      expect_same_rows<float>(&KernelTable::sigmoid_rows_float, n, bands, scale, white, form);
+      expect_same_rows<std::uint16_t>(&KernelTable::sigmoid_rows_half, n, bands, scale, white, form);
+    }
   };
   for (std::size_t n = 0; n <= 3 * kLanes; ++n) both(n, 2, n % 2 == 0 ? nullptr : scales.data(), n % 3 == 0);
   for (const bool white : {false, true}) {
@@ -299,22 +303,23 @@ TEST_P(SigmoidKernels, ProjectionsAreTheReferencesAlsoInPlace) {
           lanes == 65 ? arbitrary_floats(4 * bands, 53) : plain_floats(4 * bands, 54, -0.1F, 2.0F);
       const float* const in[3] = {c.data(), c.data() + n, c.data() + 2 * n};
       for (const float* scale : {static_cast<const float*>(nullptr), scales.data()}) {
-        const auto project = [&](const KernelTable& t, Floats& dst, bool in_place) {
+        const auto project = [&](const KernelTable& t, Floats& dst, bool in_place, SigmoidForm form) {
           float* const out[3] = {dst.data(), dst.data() + n, dst.data() + 2 * n};
           const float* const from[3] = {in_place ? out[0] : in[0], in_place ? out[1] : in[1],
                                         in_place ? out[2] : in[2]};
-          const SigmoidForm form = kForms[(bands + lanes) % 3 % 2];
           t.sigmoid_project(out, {from, scale, sigmoid_table(bands, form).rows, bands, lanes % 2 == 0, form},
                             weights.data(), n);
         };
-        Floats want(3 * n);
-        Floats got(3 * n);
-        Floats replaced(std::span(c.data(), c.size()));
-        project(ref(), want, false);
-        project(k(), got, false);
-        project(k(), replaced, true);
-        ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes";
-        ASSERT_TRUE(same_bits(replaced, want)) << bands << " bands, " << lanes << " lanes, in place";
+        for (const SigmoidForm form : kForms) {
+          Floats want(3 * n);
+          Floats got(3 * n);
+          Floats replaced(std::span(c.data(), c.size()));
+          project(ref(), want, false, form);
+          project(k(), got, false, form);
+          project(k(), replaced, true, form);
+          ASSERT_TRUE(same_bits(got, want)) << bands << " bands, " << lanes << " lanes";
+          ASSERT_TRUE(same_bits(replaced, want)) << bands << " bands, " << lanes << " lanes, in place";
+        }
       }
     }
   }

@@ -74,8 +74,9 @@ TEST_P(SigmoidContinuation, IsTheReferencesForEveryKindOfColour) {
     rgb[kAll + i] = values[i / kCount % kCount];
     rgb[2 * kAll + i] = values[i / kCount / kCount];
   }
-  for (const Method method : {Method::kSigmoid, Method::kSigmoidObserver}) {
-    const char* const space = method == Method::kSigmoid ? "acescg" : "srgb";
+  for (const auto& [method, space] :
+       {std::pair(Method::kSigmoid, "srgb"), std::pair(Method::kSigmoid, "acescg"),
+        std::pair(Method::kSigmoidObserver, "srgb"), std::pair(Method::kSigmoidObserver, "acescg")}) {
     const auto upsampler = make_sigmoid(method, "400:700:10", space);
     Floats plain = plain_floats(3 * 4160, 2, -0.2F, 1.1F);
     for (const Floats* colors : {&rgb, &plain}) {
