@@ -1,8 +1,6 @@
 // Handover: tells ThreadSanitizer that work passes from thread to thread by ways it cannot see.
 #pragma once
 
-#include <cstddef>
-
 #if defined(SPECTILE_TSAN)
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
