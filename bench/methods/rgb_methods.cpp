@@ -12,6 +12,7 @@
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
 #include "src/color/kernel_tables.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -105,6 +106,11 @@ void through_halves(const KernelTable& k, RgbState& s) {
 }
 
 void mix(const KernelTable& k, RgbState& s) {
+  if (s.upsampler->method() == Method::kTetrahedral) {
+    k.grid_blocks(s.spectra.data(), rows::grid_spectra(*s.upsampler, rgb_rows(s).data(), nullptr),
+                  blocks_for(kMethodLanes), false);
+    return;
+  }
   k.smits_blocks(s.spectra.data(), rgb_rows(s).data(),
                  {UpsamplerAccess::table(*s.upsampler), s.upsampler->bands().count(), s.upsampler->lowest()},
                  blocks_for(kMethodLanes), false);
@@ -132,6 +138,8 @@ void sum_sigmoid(const KernelTable& k, RgbState& s) {
   const float* c[3];
   k.sigmoid_project(s.xyz.span().c, sigmoids(s, c), ProjectorAccess::weights(*s.projector), kMethodLanes);
 }
+
+constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /// A method on some bands, in each of its executions.
 Result<void> add_method(Maker& maker, Method method, const Bands& bands, const std::string& label) {
@@ -163,12 +171,19 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
     mix(k, t);
     sum_up(k, t);
   });
+  if (method == Method::kTetrahedral) {
+    SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
+    maker.add(s, family, name("fused"), 0, [](const KernelTable& k, RgbState& t) {
+      k.grid_fold(t.xyz.span().c, {rgb_rows(t).data(), nullptr, RelighterAccess::grid(*t.relighter)->table},
+                  kMethodLanes);
+    });
+    return {};
+  }
   maker.add(s, family, name("spectra in half"), 2 * samples, [](const KernelTable& k, RgbState& t) {
     mix(k, t);
     through_halves(k, t);
     sum_up(k, t);
   });
-  constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
   maker.add(s, family, name("fused"), 0, [](const KernelTable& k, RgbState& t) {
     k.smits_fold(t.xyz.span().c, rgb_rows(t).data(), RelighterAccess::table(*t.relighter), kMethodLanes);
@@ -252,7 +267,7 @@ Result<std::vector<MethodRun>> rgb_methods(const MethodScene& scene, bool quick)
   }
   for (const auto& [bands, label] : lists) {
     for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
-                                Method::kSigmoidObserver}) {
+                                Method::kSigmoidObserver, Method::kTetrahedral}) {
       SPECTILE_TRY(add_method(maker, method, bands, label));
     }
   }

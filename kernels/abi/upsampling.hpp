@@ -62,6 +62,28 @@ struct SigmoidSpectra {
   SigmoidForm form = SigmoidForm::kQuadratic;
 };
 
+/// Spectra at the nodes of a grid over the cube of RGB. A node's row: its samples, then zeros.
+struct GridTable {
+  const float* nodes = nullptr;  ///< [count][count][count][stride] of red, green, blue; 64-byte aligned
+  std::size_t stride = 0;        ///< a multiple of 16; of colours kGridColor
+  std::size_t bands = 0;
+  const float* levels = nullptr;     ///< [count] components of the nodes, ascending from 0 to 1
+  const float* per_width = nullptr;  ///< [count - 1]: 1 over the difference of two levels
+  std::int32_t count = 0;            ///< at least 2
+  float lowest = 0;                  ///< samples below become it; -infinity for none
+  bool homogeneous = false;          ///< colours are looked up by their ratios alone
+};
+
+/// The spectra of lanes in a grid.
+struct GridSpectra {
+  const float* const* rgb = nullptr;  ///< three planes
+  const float* scale = nullptr;       ///< a factor a lane; null for 1
+  GridTable table;
+};
+
+/// Floats of a node that is a colour: three components and a 0.
+inline constexpr std::size_t kGridColor = 4;
+
 struct UpsamplingKernels {
   // Smits mixtures. low, middle, high: r, g, b in order; s: cyan, magenta, yellow of the component that is
   // lowest (red before green before blue); p: red, green, blue of the one that is highest (likewise).
@@ -79,6 +101,24 @@ struct UpsamplingKernels {
   /// dst[k] = the sample of row k, not clamped; table [3][kSmitsRow], 32-byte aligned; dst may be rgb
   void (*smits_fold)(float* const dst[3], const float* const rgb[3], const float* table,
                      std::size_t n) noexcept;
+
+  // Tetrahedral interpolation in a grid of spectra. Source: the partition of a cell into six tetrahedra is
+  // that of Kuhn, Some Combinatorial Lemmas in Topology, IBM J. Research and Development 4(5), 1960.
+  //   most = largest component, size = limit < most ? most : 1, limit = 1, homogeneous: 0; u = component /
+  //   size cell: the last level but one at or below u, else the first; part = (u - level) * per_width N0 the
+  //   cell's first node, N3 its last, N1 one step from N0 along the component of the greatest part (blue if
+  //   above both; red if above green), N2 one step back from N3 along that of the least part (likewise) w0 =
+  //   1 - greatest, w1 = greatest - middle, w2 = middle - least, w3 = least, each times size, then scale
+  //   where there is one sample = ((w0 * N0 + w1 * N1) + w2 * N2) + w3 * N3; sample < lowest ? lowest :
+  //   sample
+  /// dst [blocks][bands][kLanes]
+  void (*grid_blocks)(float* dst, const GridSpectra& spectra, std::size_t blocks, bool non_temporal) noexcept;
+  /// rows[band]: n floats, any address, any n; rgb, scale readable up to n rounded up to kLanes
+  void (*grid_rows_float)(void* const* rows, const GridSpectra& spectra, std::size_t n) noexcept;
+  /// the same in halves: kHalfMax < sample ? kHalfMax : sample, nearest, ties to even
+  void (*grid_rows_half)(void* const* rows, const GridSpectra& spectra, std::size_t n) noexcept;
+  /// dst[k] = sample k of a grid of colours, not clamped; dst may be rgb
+  void (*grid_fold)(float* const dst[3], const GridSpectra& spectra, std::size_t n) noexcept;
 
   // Sigmoids. fma rounds once, here, in planck and in peak_fused alone.
   //   x = fma(fma(c0, q, c1), q, c2) or fma(c0, p, fma(c1, q, c2)), by the form; t = fma(x, x, 1)

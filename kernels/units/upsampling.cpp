@@ -1,4 +1,5 @@
-// Smits mixtures and sigmoids: one unit, compiled once per instruction set.
+// Smits mixtures, grids and sigmoids: one unit, compiled once per instruction set.
+#include "kernels/grid.inl"
 #include "kernels/sigmoid.inl"
 #include "kernels/sigmoid_continuation.inl"
 #include "kernels/sigmoid_search.inl"
@@ -12,6 +13,10 @@ constexpr UpsamplingKernels upsampling = {
     .smits_rows_float = smits_rows_float,
     .smits_rows_half = smits_rows_half,
     .smits_fold = smits_fold,
+    .grid_blocks = grid_blocks,
+    .grid_rows_float = grid_rows_float,
+    .grid_rows_half = grid_rows_half,
+    .grid_fold = grid_fold,
     .sigmoid_solve = sigmoid_solve,
     .sigmoid_continuation = sigmoid_continuation,
     .sigmoid_blocks = sigmoid_blocks,

@@ -139,8 +139,8 @@ GamutReport clip_sigmoid(const kernels::KernelTable& kernels, const Upsampler& u
 
 GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],
                        GamutPolicy policy, std::size_t n, std::uint8_t* lanes_outside) {
-  return mixes_bases(upsampler) ? clip_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
-                                : clip_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
+  return stores_rgb(upsampler) ? clip_bases(kernels, upsampler, rgb, policy, n, lanes_outside)
+                               : clip_sigmoid(kernels, upsampler, rgb, policy, n, lanes_outside);
 }
 
 }  // namespace rows

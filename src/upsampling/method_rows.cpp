@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile::rows {
@@ -90,13 +91,17 @@ void solve_chunk(const kernels::KernelTable& kernels, const Upsampler& upsampler
 
 }  // namespace
 
+kernels::GridSpectra grid_spectra(const Upsampler& upsampler, const float* const rgb[3], const float* scale) {
+  return {rgb, scale, UpsamplerAccess::grid(upsampler)->table};
+}
+
 bool covers_unit_cube(const Upsampler& upsampler) {
-  return mixes_bases(upsampler) || UpsamplerAccess::sigmoid(upsampler)->covers_unit_cube;
+  return stores_rgb(upsampler) || UpsamplerAccess::sigmoid(upsampler)->covers_unit_cube;
 }
 
 void solve(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const rgb[3],
            const Coefficients& out, std::uint64_t* unsolved, std::size_t n, float* part) {
-  if (mixes_bases(upsampler)) {
+  if (stores_rgb(upsampler)) {
     std::fill_n(unsolved, n / kLanes, std::uint64_t{0});
     for (std::size_t k = 0; k < 3; ++k) {
       if (out.c[k] != rgb[k]) std::memcpy(out.c[k], rgb[k], n * sizeof(float));
@@ -119,6 +124,10 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
   if (mixes_bases(upsampler)) {
     kernels.smits_blocks(spectra, c, {UpsamplerAccess::table(upsampler), bands, upsampler.lowest()}, blocks,
                          non_temporal);
+    return;
+  }
+  if (stores_rgb(upsampler)) {
+    kernels.grid_blocks(spectra, grid_spectra(upsampler, c, scale), blocks, non_temporal);
     return;
   }
   const bool white = upsampler.quantity() == Quantity::kIlluminant;

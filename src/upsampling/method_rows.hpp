@@ -14,12 +14,18 @@ struct UpsamplerAccess {
   static const float* table(const Upsampler& upsampler) noexcept { return upsampler.table_.data(); }
   /// Null for the methods that mix basis spectra.
   static const SigmoidModel* sigmoid(const Upsampler& upsampler) noexcept { return upsampler.sigmoid_.get(); }
+  /// Null for all but tetrahedral.
+  static const std::shared_ptr<const GridModel>& grid(const Upsampler& upsampler) noexcept {
+    return upsampler.grid_;
+  }
 };
 
 /// A relighter's table in the kernels' layout.
 struct RelighterAccess {
   /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids.
   static const float* table(const Relighter& relighter) noexcept { return relighter.table_.data(); }
+  /// Null for all but tetrahedral.
+  static const GridModel* grid(const Relighter& relighter) noexcept { return relighter.grid_.get(); }
 };
 
 }  // namespace spectile
@@ -37,13 +43,24 @@ struct Coefficients {
 };
 
 /// True for the methods whose coefficients are their RGB.
-inline bool mixes_bases(const Upsampler& upsampler) {
+inline bool stores_rgb(const Upsampler& upsampler) {
   return !is_sigmoid(upsampler.method());
+}
+/// True for those whose spectra are mixtures of seven basis spectra.
+inline bool mixes_bases(const Upsampler& upsampler) {
+  return stores_rgb(upsampler) && upsampler.method() != Method::kTetrahedral;
+}
+/// True where half the colour has half the spectrum.
+inline bool is_homogeneous(const Upsampler& upsampler) {
+  return mixes_bases(upsampler) || upsampler.quantity() != Quantity::kReflectance;
 }
 /// True where every lane has a scale besides its coefficients.
 inline bool has_scale(const Upsampler& upsampler) {
-  return !mixes_bases(upsampler) && upsampler.quantity() != Quantity::kReflectance;
+  return is_sigmoid(upsampler.method()) && upsampler.quantity() != Quantity::kReflectance;
 }
+
+/// The spectra of lanes in an upsampler's grid. `scale`: a factor of each; may be null.
+kernels::GridSpectra grid_spectra(const Upsampler& upsampler, const float* const rgb[3], const float* scale);
 
 /// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
 /// that has none; it gets those of the last colour on the line from its grey that has some, and its `part`

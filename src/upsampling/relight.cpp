@@ -8,6 +8,7 @@
 #include "src/dispatch/dispatch.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -29,7 +30,11 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
   out.upsampler_ = &upsampler;
   out.projector_ = &under;
   out.matrix_ = to;
-  if (!rows::mixes_bases(upsampler)) return out;
+  if (!rows::stores_rgb(upsampler)) return out;
+  if (!rows::mixes_bases(upsampler)) {
+    SPECTILE_TRY(out.fold_grid());
+    return out;
+  }
   SPECTILE_ASSIGN(out.table_, FloatBuffer::create(3 * kSmitsRow));
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
   const auto weights = under.weights();
@@ -66,6 +71,32 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
   return out;
 }
 
+Result<void> Relighter::fold_grid() {
+  const GridModel& model = *UpsamplerAccess::grid(*upsampler_);
+  std::vector<std::array<double, 3>> weights;
+  for (const auto& w : projector_->weights()) weights.push_back(times(matrix_, w));
+  SPECTILE_ASSIGN(grid_, folded_grid(model, weights));
+  const std::size_t bands = weights.size();
+  // Through spectra: four products, three sums and a weight of three roundings a sample; then as for bases.
+  const double roundings =
+      10 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 10;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double largest = 0;
+    for (std::size_t i = 0; i < model.grid.count(); ++i) {
+      double size = 0;
+      for (std::size_t b = 0; b < bands; ++b) {
+        double terms = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+          terms += std::abs(matrix_[3 * k + j]) * projector_->weights()[b][j];
+        size += terms * model.grid.node(i)[b];
+      }
+      largest = std::max(largest, size);
+    }
+    bound_[k] = roundings * kRounding * largest;
+  }
+  return {};
+}
+
 namespace rows {
 
 void relight(const kernels::KernelTable& kernels, const Relighter& relighter, const float* const rgb[3],
@@ -80,6 +111,10 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
     } else {
       kernels.smits_fold(out, rgb, table, n);
     }
+    return;
+  }
+  if (stores_rgb(upsampler)) {
+    kernels.grid_fold(out, {rgb, scale, RelighterAccess::grid(relighter)->table}, n);
     return;
   }
   alignas(64) float c[3][rows::kChunk];

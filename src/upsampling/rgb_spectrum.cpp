@@ -43,7 +43,7 @@ Result<UpsampledSpectrum> rgb_spectrum(const Upsampler& upsampler, const std::ar
   std::vector<double> centres;
   for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
   std::vector<double> values;
-  if (!rows::mixes_bases(upsampler)) {
+  if (!rows::stores_rgb(upsampler)) {
     SPECTILE_ASSIGN(auto found, CoefficientLanes::create(upsampler, 1));
     SPECTILE_TRY(coefficients(upsampler, lanes.view(), found));
     out.sigmoid = {found.c.at(0, 0), found.c.at(0, 1), found.c.at(0, 2)};

@@ -8,6 +8,7 @@
 #include "src/base/errors.hpp"
 #include "src/color/working_space.hpp"
 #include "src/spectra/band_weights.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -60,11 +61,12 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
 Result<SampledRows> SampledRows::sized(const Upsampler& upsampler, std::size_t count) {
   SampledRows out;
   out.count_ = count;
-  out.sigmoid_ = !mixes_bases(upsampler);
+  out.sigmoid_ = !stores_rgb(upsampler);
   out.has_scale_ = rows::has_scale(upsampler);
   out.white_ = out.sigmoid_ && upsampler.quantity() == Quantity::kIlluminant;
   if (out.sigmoid_) out.form_ = UpsamplerAccess::sigmoid(upsampler)->table.form;
   out.lowest_ = upsampler.lowest();
+  if (upsampler.method() == Method::kTetrahedral) return out;
   out.row_floats_ = out.sigmoid_ ? kSigmoidRow : kernels::kSmitsRow;
   SPECTILE_ASSIGN(out.table_, FloatBuffer::create(count * out.row_floats_));
   std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
@@ -72,12 +74,20 @@ Result<SampledRows> SampledRows::sized(const Upsampler& upsampler, std::size_t c
 }
 
 void SampledRows::copy(const Upsampler& upsampler) {
+  grid_ = UpsamplerAccess::grid(upsampler);
+  if (grid_) return;
   const float* const from =
       sigmoid_ ? UpsamplerAccess::sigmoid(upsampler)->table.rows : UpsamplerAccess::table(upsampler);
   std::copy_n(from, count_ * row_floats_, table_.data());
 }
 
 void SampledRows::set_limits() {
+  if (grid_) {
+    for (const double v : grid_->grid.nodes) largest_ = std::max(largest_, std::abs(static_cast<float>(v)));
+    const float most = std::numeric_limits<float>::max() / std::max(4 * largest_, 1.0F);
+    limits_ = {most, most, most, most};
+    return;
+  }
   const std::size_t first = sigmoid_ ? kSigmoidWhite : 0;
   const std::size_t end = sigmoid_ ? kSigmoidWhite + 1 : kernels::kSmitsRow;
   float p = 1;  // largest magnitudes
@@ -126,9 +136,11 @@ Result<SampledRows> SampledRows::over(const Upsampler& upsampler, const Bands& b
 Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const double> wavelengths_nm) {
   SPECTILE_ASSIGN(auto out, sized(upsampler, wavelengths_nm.size()));
   const std::size_t last = upsampler.bands().count() - 1;
+  std::vector<GridPlaceAt> grid_places;
   for (std::size_t i = 0; i < wavelengths_nm.size(); ++i) {
     const Place place = locate(upsampler.bands(), wavelengths_nm[i]);
     const std::size_t next = std::min(place.band + 1, last);
+    grid_places.push_back({place.band, place.t});
     float* const row = out.row(i);
     if (out.sigmoid_) {
       const float* const own = UpsamplerAccess::sigmoid(upsampler)->table.rows;
@@ -137,12 +149,16 @@ Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const 
       };
       set_functions(*UpsamplerAccess::sigmoid(upsampler), wavelengths_nm[i], row);
       row[kSigmoidWhite] = static_cast<float>(interpolate(place, white(place.band), white(next)));
-    } else {
+    } else if (!UpsamplerAccess::grid(upsampler)) {
       const auto basis = upsampler.basis();
       for (std::size_t k = 0; k < 7; ++k) {
         row[k] = static_cast<float>(interpolate(place, basis[place.band][k], basis[next][k]));
       }
     }
+  }
+  if (const auto& grid = UpsamplerAccess::grid(upsampler)) {
+    SPECTILE_ASSIGN(
+        out.grid_, grid_model(grid_at(grid->grid, grid_places), grid->table.lowest, grid->table.homogeneous));
   }
   out.set_limits();
   return out;
@@ -150,12 +166,13 @@ Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const 
 
 float SampledRows::bound(const std::array<float, 4>& largest) const noexcept {
   // With room for rounding.
+  if (grid_) return 7 * std::max({largest[0], largest[1], largest[2]}) * largest_;
   if (!sigmoid_) return 3 * std::max({largest[0], largest[1], largest[2]}) * largest_;
   return 1.5F * (has_scale_ ? largest[3] : 1.0F) * largest_;
 }
 
 bool SampledRows::linear(bool any_component) const noexcept {
-  if (sigmoid_) return false;
+  if (sigmoid_ || grid_) return false;
   if (std::isinf(lowest_)) return true;
   if (any_component) return false;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -172,6 +189,12 @@ void SampledRows::expand_rows(const kernels::KernelTable& kernels, const float* 
     kernel(out, {c, scale, table_.data(), count_, white_, form_}, n);
     return;
   }
+  if (grid_) {
+    kernels::GridSpectra spectra = {c, scale, grid_->table};
+    if (half) spectra.table.lowest = std::max(lowest_, -kernels::kHalfMax);
+    (half ? kernels.grid_rows_half : kernels.grid_rows_float)(out, spectra, n);
+    return;
+  }
   const auto kernel = half ? kernels.smits_rows_half : kernels.smits_rows_float;
   const float lowest = half ? std::max(lowest_, -kernels::kHalfMax) : lowest_;
   kernel(out, c, {table_.data(), count_, lowest}, n);
@@ -181,6 +204,8 @@ void SampledRows::expand_blocks(const kernels::KernelTable& kernels, const float
                                 const float* scale, float* spectra, std::size_t blocks) const {
   if (sigmoid_) {
     kernels.sigmoid_blocks(spectra, {c, scale, table_.data(), count_, white_, form_}, blocks, false);
+  } else if (grid_) {
+    kernels.grid_blocks(spectra, {c, scale, grid_->table}, blocks, false);
   } else {
     kernels.smits_blocks(spectra, c, {table_.data(), count_, lowest_}, blocks, false);
   }

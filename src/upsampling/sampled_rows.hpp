@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <spectile/upsampling/upsample.hpp>
 
@@ -60,6 +61,7 @@ class SampledRows {
   std::size_t count_ = 0;
   std::size_t row_floats_ = 0;
   bool sigmoid_ = false;
+  std::shared_ptr<const GridModel> grid_;  // of tetrahedral: in place of the table
   bool has_scale_ = false;
   bool white_ = false;
   kernels::SigmoidForm form_ = kernels::SigmoidForm::kQuadratic;

@@ -139,15 +139,6 @@ Triple nearest_start(std::size_t most, const Triple& q) {
   return c;
 }
 
-/// Coefficients of a colour, or of the last one on the line to it from its grey that has some; true if it
-/// has.
-bool find_coefficients(const SigmoidSums& sums, const Triple& rgb, const Triple& luminance, Triple& c) {
-  constexpr int kTrials = 30;  // from near by
-  if (sums.solve(rgb, c, kTrials)) return true;
-  const double grey = luminance[0] * rgb[0] + luminance[1] * rgb[1] + luminance[2] * rgb[2];
-  return grey > 0 && grey < 1 && sums.continue_from_grey(rgb, grey, c) == 1 && sums.solve(rgb, c);
-}
-
 /// Coefficients of the grey of a component.
 Triple grey_coefficients(double level) {
   return {0, 0, (level - 0.5) / std::sqrt(level * (1 - level))};
@@ -173,7 +164,7 @@ bool fill_nodes(const SigmoidSums& sums, bool quadratic, const Triple& luminance
       } else {
         c = i + 1 < kSteps ? found[at + kSteps] : grey_coefficients(rgb[most]);
       }
-      const bool solved = find_coefficients(sums, rgb, luminance, c);
+      const bool solved = sums.find(rgb, luminance, c);
       all = all && solved;
       if (solved) store_node(expand(sums, most, q, c), kSteps, node);
       // A node without a colour, or too steep to be expanded, is a plain start.
@@ -192,7 +183,7 @@ bool has_corners(const SigmoidSums& sums, const Triple& luminance) {
   for (int corner = 1; corner < 7; ++corner) {
     const Triple rgb = {corner % 2 * 1.0, corner / 2 % 2 * 1.0, corner / 4 * 1.0};
     Triple c{};
-    if (!find_coefficients(sums, rgb, luminance, c)) return false;
+    if (!sums.find(rgb, luminance, c)) return false;
     if (std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) > static_cast<double>(kernels::kSigmoidSteep)) {
       return false;
     }

@@ -32,6 +32,22 @@ SigmoidSums::SigmoidSums(const Bands& bands, const WorkingSpace& space, const Si
   }
 }
 
+namespace {
+
+/// Half of 1 + x r, r = 1 / sqrt(1 + x^2), from the side where nothing cancels.
+double sigmoid(double x, double r) {
+  return x < 0 ? 0.5 * r * r / (1 - x * r) : 0.5 + 0.5 * x * r;
+}
+
+}  // namespace
+
+void SigmoidSums::samples(const Triple& c, double* out) const {
+  for (std::size_t b = 0; b < at_.size(); ++b) {
+    const double x = argument(c, b);
+    out[b] = sigmoid(x, 1 / std::sqrt(1 + x * x));
+  }
+}
+
 Triple SigmoidSums::at(const Triple& c, Matrix3& jacobian) const {
   Triple sums{};
   jacobian = {};
@@ -39,8 +55,7 @@ Triple SigmoidSums::at(const Triple& c, Matrix3& jacobian) const {
     const auto& [p, q] = at_[b];
     const double x = argument(c, b);
     const double r = 1 / std::sqrt(1 + x * x);
-    // From the side where nothing cancels.
-    const double sample = x < 0 ? 0.5 * r * r / (1 - x * r) : 0.5 + 0.5 * x * r;
+    const double sample = sigmoid(x, r);
     const double slope = 0.5 * r * r * r;
     for (std::size_t k = 0; k < 3; ++k) {
       const double w = weights_[b][k];
@@ -127,6 +142,13 @@ double SigmoidSums::continue_from_grey(const Triple& rgb, double grey, Triple& c
     }
   }
   return part;
+}
+
+bool SigmoidSums::find(const Triple& rgb, const Triple& luminance, Triple& c) const {
+  constexpr int kTrials = 30;  // from near by
+  if (solve(rgb, c, kTrials)) return true;
+  const double grey = luminance[0] * rgb[0] + luminance[1] * rgb[1] + luminance[2] * rgb[2];
+  return grey > 0 && grey < 1 && continue_from_grey(rgb, grey, c) == 1 && solve(rgb, c);
 }
 
 bool SigmoidSums::solve_from_grey(const Triple& rgb, Triple& c) const {

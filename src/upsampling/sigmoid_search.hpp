@@ -27,6 +27,11 @@ class SigmoidSums {
   /// Continuation from the grey axis: the part of the line from (grey, grey, grey), above 0 and below 1, to
   /// `rgb` that sigmoids have; c becomes the coefficients at its end.
   double continue_from_grey(const Triple& rgb, double grey, Triple& c) const;
+  /// Coefficients of a colour from a start near by, or of the last one on the line to it from its grey that
+  /// has some; true if it has. `luminance`: weights of R, G and B.
+  bool find(const Triple& rgb, const Triple& luminance, Triple& c) const;
+  /// Samples [bands] of coefficients.
+  void samples(const Triple& c, double* out) const;
   /// The same without a start: along the line from grey.
   bool solve_from_grey(const Triple& rgb, Triple& c) const;
 

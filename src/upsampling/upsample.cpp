@@ -40,7 +40,7 @@ bool streams(StoreHint hint, const SampledSpectraSpan& spectra) {
 void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler, const ColorView& in,
                    const float* matrix, float* spectra, std::size_t first, std::size_t count, bool stream) {
   const std::size_t bands = upsampler.bands().count();
-  if (rows::mixes_bases(upsampler) && matrix == nullptr) {
+  if (rows::stores_rgb(upsampler) && matrix == nullptr) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const rgb[3] = {in.c[0] + at, in.c[1] + at, in.c[2] + at};
     rows::expand_blocks(table, upsampler, rgb, nullptr, spectra + at * bands, count, stream);

@@ -9,6 +9,7 @@
 #include "src/data/tables.hpp"
 #include "src/spectra/band_weights.hpp"
 #include "src/upsampling/exact_basis.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile {
@@ -19,7 +20,8 @@ constexpr EnumName<Method> kMethods[] = {{Method::kSmits, "smits"},
                                          {Method::kSmitsExact, "smits-exact"},
                                          {Method::kMallett, "mallett"},
                                          {Method::kSigmoid, "sigmoid"},
-                                         {Method::kSigmoidObserver, "sigmoid-observer"}};
+                                         {Method::kSigmoidObserver, "sigmoid-observer"},
+                                         {Method::kTetrahedral, "tetrahedral"}};
 
 constexpr EnumName<Quantity> kQuantities[] = {{Quantity::kReflectance, "reflectance"},
                                               {Quantity::kUnbounded, "unbounded"},
@@ -138,15 +140,15 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   const bool published = method == Method::kSmits || method == Method::kSmits1999;
   if (published && (options.light || options.observer != Observer::kCie1931)) {
     return make_error(ErrorCode::kBadArgument,
-                      "{} is published for D65 and the 2 degree observer; smits-exact, mallett, sigmoid and "
-                      "sigmoid-observer take others",
+                      "{} is published for D65 and the 2 degree observer; smits-exact, mallett, sigmoid, "
+                      "sigmoid-observer and tetrahedral take others",
                       to_string(method));
   }
   if ((published || method == Method::kMallett) && !(options.primaries == kRec709)) {
-    return make_error(
-        ErrorCode::kBadArgument,
-        "{} is published for the primaries of sRGB; smits-exact, sigmoid and sigmoid-observer take others",
-        to_string(method));
+    return make_error(ErrorCode::kBadArgument,
+                      "{} is published for the primaries of sRGB; smits-exact, sigmoid, sigmoid-observer and "
+                      "tetrahedral take others",
+                      to_string(method));
   }
   const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
   const auto space =
@@ -163,6 +165,11 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   if (is_sigmoid(method)) {
     const auto functions = method == Method::kSigmoid ? std::nullopt : std::optional(options.observer);
     SPECTILE_ASSIGN(out.sigmoid_, sigmoid_model(bands, *space, SigmoidFunctions::of(functions)));
+    return out;
+  }
+  if (method == Method::kTetrahedral) {
+    SPECTILE_ASSIGN(auto grid, sigmoid_grid(bands, *space, options.observer));
+    SPECTILE_ASSIGN(out.grid_, grid_model(std::move(grid), out.lowest_, quantity != Quantity::kReflectance));
     return out;
   }
   SPECTILE_ASSIGN(out.basis_, published ? published_basis(method, quantity, bands)

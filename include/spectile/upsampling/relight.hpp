@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/result.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -12,8 +13,8 @@ namespace spectile {
 /// From a method's RGB to colour under a light.
 ///
 /// For mixtures of bases the colour is linear in the weights of white, secondary and primary, so bands and
-/// light fold into a table of 3 x 7 (3 x 3 for mallett), whatever the bands. The sigmoid is not linear: its
-/// coefficients are found and its samples summed in registers.
+/// light fold into a table of 3 x 7 (3 x 3 for mallett), whatever the bands; for tetrahedral into one of 3 x
+/// 125. Sigmoids are not linear: their coefficients are found and its samples summed in registers.
 class Relighter {
  public:
   /// `under` projects the upsampler's bands, `to` takes its XYZ to the colour wanted:
@@ -32,10 +33,12 @@ class Relighter {
  private:
   friend struct RelighterAccess;
   Relighter() = default;
+  Result<void> fold_grid();
   const Upsampler* upsampler_ = nullptr;
   const Projector* projector_ = nullptr;
   Matrix3 matrix_{};
   FloatBuffer table_;
+  std::shared_ptr<const GridModel> grid_;
   std::array<double, 3> bound_{};
 };
 

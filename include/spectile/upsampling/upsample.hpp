@@ -26,6 +26,7 @@ enum class Method {
   kMallett,  ///< three spectra that sum to 1, made exact for the bands; linear, so it commutes with filters
   kSigmoid,  ///< a sigmoid of a quadratic: smooth, between 0 and 1, exact, also for colours outside sRGB
   kSigmoidObserver,  ///< the same of two functions made of the observer's: nearer to measured reflectances
+  kTetrahedral,      ///< interpolated between 125 of those: exact and between 0 and 1 without a search
 };
 
 /// True for the methods whose spectra are sigmoids, of three coefficients.
@@ -56,8 +57,8 @@ enum class StoreHint {
   kStreaming,  ///< non-temporal stores, which bypass the caches
 };
 
-/// Name and back: "smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer";
-/// "reflectance", "unbounded", "illuminant". Errors: kUnknownName, listing the names.
+/// Name and back: "smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer",
+/// "tetrahedral"; "reflectance", "unbounded", "illuminant". Errors: kUnknownName, listing the names.
 Result<Method> parse_method(std::string_view name);
 Result<Quantity> parse_quantity(std::string_view name);
 /// Names that parse_method() knows.
@@ -68,12 +69,13 @@ std::string_view to_string(Quantity quantity);
 /// Viewing conditions under which the spectra must have the colours asked for.
 struct UpsamplerOptions {
   NegativeSamples negative = NegativeSamples::kClampToZero;
-  Chromaticities primaries = kRec709;     ///< of the RGB; free for smits-exact and the sigmoids
+  Chromaticities primaries = kRec709;     ///< of the RGB; free for smits-exact, the sigmoids and tetrahedral
   std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
 };
 
 struct SigmoidModel;
+struct GridModel;
 
 /// A method prepared for given bands, ready for the kernels.
 ///
@@ -104,7 +106,7 @@ class Upsampler {
   /// Minimum of the samples: 0, or minus infinity when negative ones are kept.
   float lowest() const noexcept { return lowest_; }
   /// Shapes: [bands][7], in double before rounding to the kernels' float; white, cyan, magenta, yellow, red,
-  /// green, blue. Empty for the sigmoids.
+  /// green, blue. Empty for the sigmoids and tetrahedral.
   std::span<const std::array<double, 7>> basis() const noexcept { return basis_; }
   /// XYZ of RGB 1, 1, 1, and the matrix that goes with it: see above.
   const Matrix3& rgb_to_xyz() const noexcept { return rgb_to_xyz_; }
@@ -125,6 +127,7 @@ class Upsampler {
   std::vector<std::array<double, 7>> basis_;
   FloatBuffer table_;
   std::shared_ptr<const SigmoidModel> sigmoid_;
+  std::shared_ptr<const GridModel> grid_;
 };
 
 /// Treatment of colours that a method cannot make, once they are in its RGB.

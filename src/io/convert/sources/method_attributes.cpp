@@ -66,7 +66,7 @@ std::vector<std::string> coefficient_channels(const Upsampler& upsampler, bool p
 }
 
 bool has_straight_coefficients(const PartHeader& header, const Upsampler& upsampler) {
-  return !rows::mixes_bases(upsampler) && !rows::has_scale(upsampler) &&
+  return !rows::is_homogeneous(upsampler) &&
          header.text(kAlpha) == to_string(AlphaMeaning::kPremultiplied);
 }
 

@@ -47,7 +47,7 @@ ColorStage::Sanitized ColorStage::sanitize(int line, const ColorLine& color, std
   }
   stats.over_one += own.over_one;
   // Most lines have no colour that any method could not make.
-  const bool bounded = !rows::mixes_bases(upsampler_) && options_.quantity == Quantity::kReflectance;
+  const bool bounded = !rows::stores_rgb(upsampler_) && options_.quantity == Quantity::kReflectance;
   return {largest,
           own.negative.count > 0 || (bounded && own.over_one > 0) || !rows::covers_unit_cube(upsampler_)};
 }

@@ -22,7 +22,7 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
     : stage_(stage),
       upsampler_(upsampler),
       kernels_(kernels),
-      mixes_(rows::mixes_bases(upsampler)),
+      mixes_(rows::stores_rgb(upsampler)),
       skip_(skip),
       scaled_(scaled) {
   if (mixes_ || !skip) return;
@@ -37,10 +37,12 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
 
 Result<LineSolver::Work> LineSolver::work(int width) const {
   Work work;
+  const std::size_t padded = blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
+  if (scaled_ || !mixes_) {
+    SPECTILE_ASSIGN(work.scale, FloatBuffer::create(padded));
+  }
   if (mixes_) return work;
   SPECTILE_ASSIGN(work.coefficients, ColorLine::create(width));
-  const std::size_t padded = work.coefficients.padded;
-  SPECTILE_ASSIGN(work.scale, FloatBuffer::create(padded));
   work.unsolved.resize(padded / kLanesPerBlock);
   work.outside.resize(padded);
   if (table_) {
@@ -62,7 +64,7 @@ LineCoefficients LineSolver::line(Work& work, const ColorLine& rgb, std::size_t 
     stats.constant += found.constant;
     if (!mixes_) by_runs(work, rgb, width, line, stats);
   }
-  if (mixes_) return {{rgb.rows[0], rgb.rows[1], rgb.rows[2]}, nullptr};
+  if (mixes_) return {{rgb.rows[0], rgb.rows[1], rgb.rows[2]}, scaled_ ? work.scale.data() : nullptr};
   const rows::Coefficients out = at(work, 0);
   return {{out.c[0], out.c[1], out.c[2]}, scaled_ ? work.scale.data() : out.scale};
 }

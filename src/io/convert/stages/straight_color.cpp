@@ -20,7 +20,7 @@ StraightColor::StraightColor(const RgbSource& source, const Upsampler& upsampler
                              const MethodOptions& options, const kernels::KernelTable& kernels)
     : kernels_(kernels) {
   if (options.alpha_meaning() != AlphaMeaning::kPremultiplied || !source.alpha()) return;
-  if (rows::mixes_bases(upsampler) || rows::has_scale(upsampler)) return;
+  if (rows::is_homogeneous(upsampler)) return;
   plane_ = source.alpha();
   type_ = source.planes()[*plane_].type;
 }

@@ -1,0 +1,54 @@
+// ColorGrid: a spectrum at each node of a grid over the cube of RGB, between which colours are interpolated.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernels/abi.hpp"
+#include "src/color/working_space.hpp"
+
+namespace spectile {
+
+/// Levels of the nodes along each component, and their spectra. A node's spectrum has exactly its colour, so
+/// that every mixture of nodes has the mixture's.
+struct ColorGrid {
+  std::vector<float> levels;  ///< ascending from 0 to 1
+  std::size_t places = 0;     ///< bands, or wavelengths
+  std::vector<double> nodes;  ///< [red][green][blue][places]
+
+  std::size_t count() const noexcept { return levels.size() * levels.size() * levels.size(); }
+  std::span<const double> node(std::size_t i) const { return {nodes.data() + i * places, places}; }
+  /// RGB of a node.
+  std::array<double, 3> color(std::size_t i) const;
+};
+
+/// A grid of the kernels, and the memory that it lies in.
+struct GridModel {
+  ColorGrid grid;
+  FloatBuffer memory;
+  kernels::GridTable table;
+};
+
+/// The grid of five levels, ((k / 4)^1.5), whose spectra are sigmoids of the observer's functions; times the
+/// white of the space, where it is that of a light. Errors: kBadArgument where a node's colour has no such
+/// spectrum; kOutOfMemory.
+Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer);
+
+/// The same grid at other places: linear between two of its own, the next one's with the share `part`.
+struct GridPlaceAt {
+  std::size_t place = 0;
+  double part = 0;
+};
+ColorGrid grid_at(const ColorGrid& grid, std::span<const GridPlaceAt> places);
+
+/// Tables for the kernels. `lowest`: minimum of the samples. `homogeneous`: half the colour has half the
+/// spectrum, as light has. Errors: kOutOfMemory.
+Result<std::shared_ptr<const GridModel>> grid_model(ColorGrid grid, float lowest, bool homogeneous);
+
+/// Colours of the nodes by weights [places] of each component, for UpsamplingKernels::grid_fold. Errors:
+/// kOutOfMemory.
+Result<std::shared_ptr<const GridModel>> folded_grid(const GridModel& model,
+                                                     std::span<const std::array<double, 3>> weights);
+
+}  // namespace spectile
