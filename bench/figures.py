@@ -247,7 +247,7 @@ def compression(args):
                  for method, runs in found.items()]))
 
 
-METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer")
+METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer", "tetrahedral")
 
 
 def grid(path, side):

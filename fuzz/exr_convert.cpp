@@ -36,10 +36,11 @@ void choose(fuzz::Choices& choices, ImageOptions& options) {
 
 void choose(fuzz::Choices& choices, MethodOptions& options) {
   choose(choices, static_cast<ImageOptions&>(options));
-  constexpr std::array kMethods = {Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett,
-                                   Method::kSigmoid};
-  // The last two search for what they need, which takes a hundred times as long as the rest of a case.
-  options.method = kMethods[choices.below(choices.one_in(16) ? 5 : 3)];
+  constexpr std::array kMethods = {Method::kSmits,      Method::kSmits1999, Method::kSmitsExact,
+                                   Method::kMallett,    Method::kSigmoid,   Method::kSigmoidObserver,
+                                   Method::kTetrahedral};
+  // The last ones search for what they need, which takes a hundred times as long as the rest of a case.
+  options.method = kMethods[choices.below(choices.one_in(16) ? static_cast<unsigned>(kMethods.size()) : 3)];
   options.quantity = static_cast<Quantity>(choices.below(3));
   options.negative = static_cast<NegativeInput>(choices.below(3));
 }

@@ -1,7 +1,8 @@
-// Fuzzes plans as JSON: a plan that can be read is written as text that means the very same plan.
+// Fuzzes plans and learned nodes as JSON: what can be read is written as text that means the very same.
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <spectile/image/nodes_file.hpp>
 #include <spectile/image/plan_file.hpp>
 
 #include "fuzz/support.hpp"
@@ -48,9 +49,27 @@ void require_same(const Plan& a, const Plan& b, const std::string& text) {
       "errors of even bands come back to the bit", text);
 }
 
+/// Learned nodes are read by the same rules.
+void try_nodes(std::string_view text) {
+  const auto nodes = parse_nodes(text, "case");
+  if (!fuzz::is_value(nodes)) {
+    fuzz::require(nodes.error().message.starts_with("case: "), "an error names its source",
+                  nodes.error().message);
+    return;
+  }
+  const std::string written = nodes_to_json(*nodes);
+  const auto again = parse_nodes(written, "case");
+  fuzz::require(static_cast<bool>(again), "written nodes can be read",
+                again ? written : again.error().message);
+  fuzz::require(nodes->offsets == again->offsets && nodes->wavelengths_nm == again->wavelengths_nm,
+                "nodes come back to the bit", written);
+  fuzz::require(nodes_to_json(*again) == written, "nodes written twice are the same text", written);
+}
+
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try_nodes(fuzz::text_of({data, size}));
   const auto plan = parse_plan(fuzz::text_of({data, size}), "case");
   if (!fuzz::is_value(plan)) {
     fuzz::require(plan.error().message.starts_with("case: "), "an error names its source",

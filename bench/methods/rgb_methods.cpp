@@ -12,7 +12,6 @@
 #include "bench/methods/methods.hpp"
 #include "src/base/errors.hpp"
 #include "src/color/kernel_tables.hpp"
-#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
@@ -174,7 +173,7 @@ Result<void> add_method(Maker& maker, Method method, const Bands& bands, const s
   if (method == Method::kTetrahedral) {
     SPECTILE_ASSIGN(s->relighter, Relighter::create(*s->upsampler, *s->projector, kIdentity));
     maker.add(s, family, name("fused"), 0, [](const KernelTable& k, RgbState& t) {
-      k.grid_fold(t.xyz.span().c, {rgb_rows(t).data(), nullptr, RelighterAccess::grid(*t.relighter)->table},
+      k.grid_fold(t.xyz.span().c, rows::folded_spectra(*t.relighter, rgb_rows(t).data(), nullptr),
                   kMethodLanes);
     });
     return {};

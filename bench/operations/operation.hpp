@@ -10,6 +10,7 @@
 #include <random>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
+#include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/upsample.hpp>
 #include <string>
 #include <vector>
@@ -180,6 +181,8 @@ void add_arithmetic(std::vector<Operation>& to);
 Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
 void add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
+void add_grids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
+               const std::shared_ptr<const Relighter>& relighter);
 Result<void> add_wavelengths(std::vector<Operation>& to);
 Result<void> add_film(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_film_sums(std::vector<Operation>& to, const Bands& bands);

@@ -179,6 +179,22 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
   };
 }
 
+/// Under illuminant A.
+Result<std::shared_ptr<const Relighter>> relighter_of(const std::shared_ptr<const Upsampler>& upsampler) {
+  SPECTILE_ASSIGN(auto light, illuminant("A"));
+  SPECTILE_ASSIGN(auto under, Projector::reflective(upsampler->bands(), light));
+  // The relighter refers to the others.
+  struct Kept {
+    std::shared_ptr<const Upsampler> upsampler;
+    Projector projector;
+    std::optional<Relighter> relighter;
+  };
+  auto kept = std::make_shared<Kept>(Kept{upsampler, std::move(under), {}});
+  SPECTILE_ASSIGN(kept->relighter,
+                  Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
+  return std::shared_ptr<const Relighter>(kept, &*kept->relighter);
+}
+
 }  // namespace
 
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
@@ -199,18 +215,12 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
   }
   if (const auto exact = create_upsampler(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
-    SPECTILE_ASSIGN(auto light, illuminant("A"));
-    SPECTILE_ASSIGN(auto under, Projector::reflective(bands, light));
-    // The relighter refers to the others.
-    struct Kept {
-      std::shared_ptr<const Upsampler> upsampler;
-      Projector projector;
-      std::optional<Relighter> relighter;
-    };
-    auto kept = std::make_shared<Kept>(Kept{exact, std::move(under), {}});
-    SPECTILE_ASSIGN(kept->relighter,
-                    Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
-    add_relight(to, std::shared_ptr<const Relighter>(kept, &*kept->relighter));
+    SPECTILE_ASSIGN(const auto relighter, relighter_of(exact));
+    add_relight(to, relighter);
+  }
+  if (const auto grid = create_upsampler(Method::kTetrahedral)) {
+    SPECTILE_ASSIGN(const auto relighter, relighter_of(grid));
+    add_grids(to, grid, relighter);
   }
   for (const Method method : {Method::kSigmoid, Method::kSigmoidObserver}) {
     if (const auto sigmoids = create_upsampler(method)) add_sigmoids(to, sigmoids);

@@ -16,6 +16,7 @@
 #include <spectile/image/film_file.hpp>
 #include <spectile/image/image.hpp>
 #include <spectile/image/limits.hpp>
+#include <spectile/image/nodes_file.hpp>
 #include <spectile/image/plan_file.hpp>
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
@@ -43,6 +44,7 @@
 #include <spectile/spectra/spectrum_table.hpp>
 #include <spectile/threads.hpp>
 #include <spectile/units.hpp>
+#include <spectile/upsampling/learned_nodes.hpp>
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/representation.hpp>
 #include <spectile/upsampling/rgb_spectrum.hpp>

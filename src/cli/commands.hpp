@@ -16,6 +16,7 @@ void add_info(const Command& app, int& exit);
 void add_verify(const Command& app, int& exit);
 void add_spectra(const Command& app, int& exit);
 void add_plan(const Command& app, int& exit);
+void add_fit(const Command& app, int& exit);
 void add_film(const Command& app, int& exit);
 void add_bench(const Command& app, int& exit);
 

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   add_verify(app, exit);
   add_spectra(app, exit);
   add_plan(app, exit);
+  add_fit(app, exit);
   add_film(app, exit);
   add_bench(app, exit);
   try {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "src/reference/exponential.hpp"
-#include "src/reference/sigmoid.hpp"
 #include "src/reference/twins.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 
 namespace spectile::reference {
 namespace {

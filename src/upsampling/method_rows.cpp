@@ -95,6 +95,11 @@ kernels::GridSpectra grid_spectra(const Upsampler& upsampler, const float* const
   return {rgb, scale, UpsamplerAccess::grid(upsampler)->table};
 }
 
+kernels::GridSpectra folded_spectra(const Relighter& relighter, const float* const rgb[3],
+                                    const float* scale) {
+  return {rgb, scale, RelighterAccess::grid(relighter)->table};
+}
+
 bool covers_unit_cube(const Upsampler& upsampler) {
   return stores_rgb(upsampler) || UpsamplerAccess::sigmoid(upsampler)->covers_unit_cube;
 }

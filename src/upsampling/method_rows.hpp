@@ -62,6 +62,10 @@ inline bool has_scale(const Upsampler& upsampler) {
 /// The spectra of lanes in an upsampler's grid. `scale`: a factor of each; may be null.
 kernels::GridSpectra grid_spectra(const Upsampler& upsampler, const float* const rgb[3], const float* scale);
 
+/// The same in the grid of colours of a relighter.
+kernels::GridSpectra folded_spectra(const Relighter& relighter, const float* const rgb[3],
+                                    const float* scale);
+
 /// RGB to coefficients; n a multiple of 64, any number of them. `unsolved` [n / 64] gets a bit for each lane
 /// that has none; it gets those of the last colour on the line from its grey that has some, and its `part`
 /// [n], where asked for, is how much of that line that is, else 1. `out` may be `rgb`.

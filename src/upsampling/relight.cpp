@@ -114,7 +114,7 @@ void relight(const kernels::KernelTable& kernels, const Relighter& relighter, co
     return;
   }
   if (stores_rgb(upsampler)) {
-    kernels.grid_fold(out, {rgb, scale, RelighterAccess::grid(relighter)->table}, n);
+    kernels.grid_fold(out, folded_spectra(relighter, rgb, scale), n);
     return;
   }
   alignas(64) float c[3][rows::kChunk];

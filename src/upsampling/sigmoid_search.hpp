@@ -16,6 +16,9 @@ class SigmoidSums {
  public:
   SigmoidSums(const Bands& bands, const WorkingSpace& space, const SigmoidFunctions& functions);
 
+  /// Sets numbers that are added to the argument of the sigmoid in each band. Shapes: [bands].
+  void set_offsets(std::vector<double> offsets) { offsets_ = std::move(offsets); }
+
   /// Sums, and their derivatives [rgb][coefficient].
   Triple at(const Triple& c, Matrix3& jacobian) const;
   /// Second derivatives [rgb][coefficient, coefficient].
@@ -39,11 +42,13 @@ class SigmoidSums {
   double argument(const Triple& c, std::size_t band) const {
     const auto& [p, q] = at_[band];
     // In this order, so that its rounding stays that of the start table.
-    return quadratic_ ? (c[0] * q + c[1]) * q + c[2] : c[0] * p + c[1] * q + c[2];
+    const double own = quadratic_ ? (c[0] * q + c[1]) * q + c[2] : c[0] * p + c[1] * q + c[2];
+    return offsets_.empty() ? own : own + offsets_[band];
   }
   bool quadratic_;
   std::vector<std::array<double, 2>> at_;  // p and q of each band
   std::vector<Triple> weights_;
+  std::vector<double> offsets_;  // of each band, or none
 };
 
 }  // namespace spectile

@@ -1,6 +1,7 @@
 // Upsampler: a method prepared for given bands, light, observer and primaries.
 #include <algorithm>
 #include <limits>
+#include <spectile/upsampling/learned_nodes.hpp>
 #include <spectile/upsampling/upsample.hpp>
 
 #include "kernels/abi.hpp"
@@ -104,6 +105,30 @@ Result<BasisTable> exact_basis(Method method, Quantity quantity, const Bands& ba
                     options.primaries == kRec709 ? ", smits takes any bands" : "");
 }
 
+/// Errors: kBadArgument for nodes of another method, white or observer, or of other primaries than sRGB's.
+Result<void> check_nodes(Method method, const LearnedNodes& nodes, const MeasuredSpectrum& light,
+                         const UpsamplerOptions& options) {
+  if (method != Method::kTetrahedral) {
+    return make_error(ErrorCode::kBadArgument, "learned nodes are for tetrahedral, not for {}",
+                      to_string(method));
+  }
+  if (nodes.wavelengths_nm.empty() || nodes.offsets.size() != kNodes * nodes.wavelengths_nm.size()) {
+    return make_error(ErrorCode::kBadArgument, "{} offsets are not {} for each of {} wavelengths",
+                      nodes.offsets.size(), kNodes, nodes.wavelengths_nm.size());
+  }
+  if (!(options.primaries == kRec709)) {
+    return make_error(ErrorCode::kBadArgument, "nodes are learned for the primaries of sRGB");
+  }
+  if (nodes.observer != options.observer || !same_light(nodes.light.spectrum, light)) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "the nodes were learned for the white {} and the observer of {}; others need their own, "
+        "which learning with the same white and observer makes",
+        nodes.light.name, to_string(nodes.observer));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Method> parse_method(std::string_view name) {
@@ -151,6 +176,7 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
                       to_string(method));
   }
   const MeasuredSpectrum light = options.light ? *options.light : *illuminant("D65");
+  if (options.nodes) SPECTILE_TRY(check_nodes(method, *options.nodes, light, options));
   const auto space =
       working_space(bands, quantity == Quantity::kIlluminant, options.primaries, light, options.observer);
   if (!space && !published) return space.error();
@@ -168,7 +194,7 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
     return out;
   }
   if (method == Method::kTetrahedral) {
-    SPECTILE_ASSIGN(auto grid, sigmoid_grid(bands, *space, options.observer));
+    SPECTILE_ASSIGN(auto grid, sigmoid_grid(bands, *space, options.observer, options.nodes.get()));
     SPECTILE_ASSIGN(out.grid_, grid_model(std::move(grid), out.lowest_, quantity != Quantity::kReflectance));
     return out;
   }

@@ -65,8 +65,8 @@ TEST(SpectrumSampler, IsTheDistributionWithinItsBound) {
 }
 
 TEST(SpectrumSampler, UpsampledOnesAreWhatTheirFormulasSay) {
-  for (const Method method :
-       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                              Method::kSigmoidObserver, Method::kTetrahedral}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, Bands());
       const auto s = *rgb_spectrum(upsampler, {0.9, 0.4, 0.05});

@@ -21,7 +21,7 @@ TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
   const Bands bands = *Bands::parse("380:780:10");
   int made = 0;
   for (const Method method : {Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett,
-                              Method::kSigmoid, Method::kSigmoidObserver}) {
+                              Method::kSigmoid, Method::kSigmoidObserver, Method::kTetrahedral}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
       const auto upsampler = Upsampler::create(method, quantity, bands);
       if (!upsampler) continue;
@@ -61,8 +61,8 @@ TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
 }
 
 TEST(UpsampledSpectrum, AtTheCentresItIsWhatTheBatchMakes) {
-  for (const Method method :
-       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                              Method::kSigmoidObserver, Method::kTetrahedral}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded, Quantity::kIlluminant}) {
       const auto upsampler = *Upsampler::create(method, quantity, Bands());
       const std::array<double, 3> rgb = {0.8, 0.35, 0.1};

@@ -145,13 +145,14 @@ inline NegativeSamples drawn_negative() {
 }
 inline Method drawn_method() {
   return *rc::gen::element(Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett,
-                           Method::kSigmoid, Method::kSigmoidObserver);
+                           Method::kSigmoid, Method::kSigmoidObserver, Method::kTetrahedral);
 }
 inline Method drawn_mixture() {
   return *rc::gen::element(Method::kSmits, Method::kSmits1999, Method::kSmitsExact, Method::kMallett);
 }
 inline Method drawn_exact() {
-  return *rc::gen::element(Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver);
+  return *rc::gen::element(Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver,
+                           Method::kTetrahedral);
 }
 
 inline SampledSpectra upsampled(const Upsampler& upsampler, const ColorLanes& rgb) {

@@ -125,8 +125,8 @@ TEST(Gamut, ColoursBelowBlackBecomeBlack) {
 }
 
 TEST(Gamut, KeepingCountsAndChangesNothing) {
-  for (const Method method :
-       {Method::kSmits, Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmits, Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver,
+                              Method::kTetrahedral}) {
     const auto upsampler = upsampler_of(method);
     const auto before = random_colors(257, 2, -0.5F, 1.5F);
     auto kept = copy_of(before);
@@ -141,7 +141,8 @@ TEST(Gamut, KeepingCountsAndChangesNothing) {
 }
 
 TEST(Gamut, ResultsDependNeitherOnThreadsNorOnTiles) {
-  for (const Method method : {Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method :
+       {Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver, Method::kTetrahedral}) {
     const auto upsampler = upsampler_of(method);
     // Few lanes outside, the first of them late.
     auto before = random_colors(4099, 3);
@@ -255,8 +256,8 @@ TEST(Gamut, WhatIsNotFiniteStays) {
   const Rgb colors[] = {{kNan, 0.5F, 0.5F}, {-1, kNan, 0.5F},    {2, 2, kNan},   {kInf, 0, 0},
                         {-kInf, -1, 0.5F},  {-1, kInf, 2},       {-1, kNan, -1}, {kNan, -1, 0.5F},
                         {-1, -kInf, -1},    {-kInf, 0.5F, 0.5F}, {kInf, -1, 0},  {kNan, kNan, kNan}};
-  for (const Method method :
-       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                              Method::kSigmoidObserver, Method::kTetrahedral}) {
     for (const Quantity quantity : {Quantity::kReflectance, Quantity::kUnbounded}) {
       const auto upsampler = upsampler_of(method, quantity);
       const auto before = lanes_of(colors);

@@ -6,8 +6,9 @@
 namespace spectile::test {
 namespace {
 
-constexpr Method kRelitMethods[] = {Method::kSmits,   Method::kSmits1999, Method::kSmitsExact,
-                                    Method::kMallett, Method::kSigmoid,   Method::kSigmoidObserver};
+constexpr Method kRelitMethods[] = {Method::kSmits,      Method::kSmits1999, Method::kSmitsExact,
+                                    Method::kMallett,    Method::kSigmoid,   Method::kSigmoidObserver,
+                                    Method::kTetrahedral};
 
 ColorLanes colors(std::size_t lanes, float low, float high, std::uint32_t seed) {
   auto rgb = *ColorLanes::create(lanes);

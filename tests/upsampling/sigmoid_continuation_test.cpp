@@ -1,6 +1,6 @@
 // The way from grey to a colour: what the quick search misses is found, and what no sigmoid has ends where
 // the sigmoids end.
-#include "src/reference/sigmoid.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 #include "tests/kernels/kernel_fixture.hpp"

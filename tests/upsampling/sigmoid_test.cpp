@@ -1,6 +1,6 @@
 // Sigmoid spectra of sRGB reflectances: they have the colours asked for, in the whole cube and at its dark,
 // bright and grey ends, and their samples are the formula's.
-#include "src/reference/sigmoid.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 
 #include <gmock/gmock.h>
 

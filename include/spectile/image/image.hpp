@@ -97,8 +97,7 @@ struct ImageOptions {
   /// upsample_image: whether what is black, masked, constant or repeated is found and not computed again. The
   /// file is the same to the bit without; SkipStats says what it was good for.
   bool skip = true;
-  /// Conversions of an image to another write tiles of this width and height, 1 to 4096, where it is given,
-  /// and scanlines where not.
+  /// Conversions of an image to another write tiles of this width and height, 1 to 4096; none: scanlines.
   std::optional<std::array<int, 2>> tile;
   /// Conversions of an image to another write mip levels too, down to one pixel, sizes rounded down, in tiles
   /// of 64 x 64 where `tile` says nothing. A level's pixel is the average of the area that it covers: of
@@ -125,7 +124,8 @@ struct MethodOptions : ImageOptions {
   Bands bands;
   std::optional<NamedLight> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
-  std::optional<RgbSpace> input_space;  ///< of the input's RGB, whatever its attributes say
+  std::shared_ptr<const LearnedNodes> nodes;  ///< of tetrahedral: learned ones; none for sigmoids
+  std::optional<RgbSpace> input_space;        ///< of the input's RGB, whatever its attributes say
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
   /// Of the input, where it has alpha. It matters to methods whose spectrum of half a colour is not half of

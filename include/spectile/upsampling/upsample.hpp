@@ -66,12 +66,15 @@ std::vector<std::string> method_names();
 std::string_view to_string(Method method);
 std::string_view to_string(Quantity quantity);
 
+struct LearnedNodes;
+
 /// Viewing conditions under which the spectra must have the colours asked for.
 struct UpsamplerOptions {
   NegativeSamples negative = NegativeSamples::kClampToZero;
   Chromaticities primaries = kRec709;     ///< of the RGB; free for smits-exact, the sigmoids and tetrahedral
   std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
+  std::shared_ptr<const LearnedNodes> nodes;  ///< of tetrahedral: learned ones; none for sigmoids
 };
 
 struct SigmoidModel;
@@ -92,8 +95,8 @@ struct GridModel;
 /// Application 45(1), 2020.
 class Upsampler {
  public:
-  /// Errors: kOutOfMemory; kBadArgument for options that the method is not made for, and where there are no
-  /// spectra with the colours of the cube's corners, naming a method that works.
+  /// Errors: kOutOfMemory; kBadArgument for options that the method, or its nodes, are not made for, and
+  /// where there are no spectra with the colours of the cube's corners, naming a method that works.
   static Result<Upsampler> create(Method method, Quantity quantity, const Bands& bands,
                                   const UpsamplerOptions& options);
   static Result<Upsampler> create(Method method, Quantity quantity, const Bands& bands,

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <spectile/image/nodes_file.hpp>
+
 #include "src/cli/options/parse.hpp"
 
 namespace spectile::cli {
@@ -34,9 +36,7 @@ void add_alpha_option(const Command& command, MethodArguments& a) {
 }
 
 void add_method_option(const Command& command, std::string& method) {
-  command
-      .option("--method", method, "NAME", kColorGroup,
-              fmt::format("{} (docs/methods.md)", fmt::join(method_names(), ", ")))
+  command.option("--method", method, "NAME", kColorGroup, fmt::format("{}", fmt::join(method_names(), ", ")))
       .one_of(method_names())
       .show_default();
 }
@@ -58,6 +58,8 @@ void add_method_options(const Command& command, MethodArguments& a) {
   command.option("--white", a.white, "SPECTRUM", kColorGroup,
                  "Reference white: RGB 1,1,1 is the perfect diffuser under it; D65 by default");
   add_observer_option(command, a.white_observer, "--white-observer");
+  command.option("--nodes", a.nodes, "FILE", kColorGroup,
+                 "For tetrahedral: what fit learned from measured reflectances");
   add_spectrum_options(command, a.spectra);
   add_rgb_input_options(command, a.input_space, a.channels);
   command.choice("--negative", a.negative, kNegatives, kColorGroup,
@@ -80,6 +82,11 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
     if (lower_case(a.white) == "d65") out.light.reset();
   }
   out.observer = a.white_observer;
+  if (!a.nodes.empty()) {
+    if (out.method != Method::kTetrahedral)
+      throw Stop(complain_usage(fmt::format("--nodes is for --method tetrahedral, not {}", a.method)));
+    out.nodes = std::make_shared<const LearnedNodes>(take(load_nodes(a.nodes)));
+  }
   out.input_space = space_of(a.input_space);
   out.negative = a.negative;
   out.out_of_gamut = a.out_of_gamut;
@@ -88,7 +95,9 @@ void apply_method_options(const MethodArguments& a, MethodOptions& out) {
 }
 
 std::vector<NamedFile> method_files(const MethodArguments& a) {
-  return files_among({{a.white, "the reference white (--white)"}, {file_of_bands(a.bands), kBandsRole}});
+  return files_among({{a.white, "the reference white (--white)"},
+                      {file_of_bands(a.bands), kBandsRole},
+                      {a.nodes, "the nodes (--nodes)"}});
 }
 
 ColorHandling color_handling(const MethodOptions& options) {

@@ -16,6 +16,7 @@ struct MethodArguments {
   std::string bands = "400:700:5";
   std::string white;
   Observer white_observer = Observer::kCie1931;
+  std::string nodes;
   std::string input_space;
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;

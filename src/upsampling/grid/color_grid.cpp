@@ -12,27 +12,64 @@ namespace {
 
 constexpr std::size_t kLevels = 5;
 
-std::vector<float> even_roots() {
-  std::vector<float> out;
-  for (std::size_t k = 0; k < kLevels; ++k) {
-    out.push_back(static_cast<float>(std::pow(static_cast<double>(k) / (kLevels - 1), 1.5)));
+/// Offsets of a node at the centres of bands.
+std::vector<double> offsets_at(const LearnedNodes& nodes, std::size_t node, const Bands& bands) {
+  const std::vector<double>& nm = nodes.wavelengths_nm;
+  const float* const own = nodes.offsets.data() + node * nm.size();
+  std::vector<double> out;
+  for (const Band& band : bands.list()) {
+    const double at = std::clamp(band.centre_nm, nm.front(), nm.back());
+    const auto after = std::upper_bound(nm.begin(), nm.end() - 1, at);
+    const auto i = static_cast<std::size_t>(after - nm.begin());
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const double part = i == before ? 0 : (at - nm[before]) / (nm[i] - nm[before]);
+    out.push_back((1 - part) * static_cast<double>(own[before]) + part * static_cast<double>(own[i]));
   }
   return out;
 }
 
 /// Samples of a node that is not grey; false where no sigmoid has its colour.
-bool fill_node(const SigmoidSums& sums, const Triple& rgb, const Triple& luminance, double* samples) {
+bool fill_node(SigmoidSums& sums, const Triple& rgb, const Triple& luminance, std::vector<double> offsets,
+               double* samples) {
   // The reflectance of 1 - colour is 1 - reflectance.
   const bool bright = std::max({rgb[0], rgb[1], rgb[2]}) + std::min({rgb[0], rgb[1], rgb[2]}) > 1;
   const Triple target = bright ? Triple{1 - rgb[0], 1 - rgb[1], 1 - rgb[2]} : rgb;
+  sums.set_offsets(std::vector<double>(offsets.size(), 0.0));
   Triple c{};
   if (!sums.find(target, luminance, c)) return false;
-  if (bright) c = {-c[0], -c[1], -c[2]};
+  if (bright) {
+    for (double& v : offsets) v = -v;
+  }
+  constexpr int kHalvings = 8;
+  for (int i = 0; i < kHalvings; ++i) {
+    Triple learned = c;
+    sums.set_offsets(offsets);
+    if (sums.solve(target, learned)) {
+      c = learned;
+      break;
+    }
+    for (double& v : offsets) v = i + 2 < kHalvings ? v / 2 : 0.0;
+  }
+  if (bright) {
+    c = {-c[0], -c[1], -c[2]};
+    for (double& v : offsets) v = -v;
+    sums.set_offsets(offsets);
+  }
   sums.samples(c, samples);
   return true;
 }
 
 }  // namespace
+
+std::span<const float> node_levels() {
+  static const auto levels = [] {
+    std::array<float, kLevels> out{};
+    for (std::size_t k = 0; k < kLevels; ++k)
+      out[k] = static_cast<float>(std::pow(static_cast<double>(k) / (kLevels - 1), 1.5));
+    return out;
+  }();
+  return levels;
+}
 
 std::array<double, 3> ColorGrid::color(std::size_t i) const {
   const std::size_t n = levels.size();
@@ -40,11 +77,12 @@ std::array<double, 3> ColorGrid::color(std::size_t i) const {
           static_cast<double>(levels[i % n])};
 }
 
-Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer) {
-  const SigmoidSums sums(bands, space, SigmoidFunctions::of(observer));
+Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer,
+                               const LearnedNodes* nodes) {
+  SigmoidSums sums(bands, space, SigmoidFunctions::of(observer));
   const Triple luminance = {space.rgb_to_xyz[3], space.rgb_to_xyz[4], space.rgb_to_xyz[5]};
   ColorGrid out;
-  out.levels = even_roots();
+  out.levels.assign(node_levels().begin(), node_levels().end());
   out.places = bands.count();
   out.nodes.resize(out.count() * out.places);
   for (std::size_t i = 0; i < out.count(); ++i) {
@@ -52,7 +90,10 @@ Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Ob
     const Triple rgb = out.color(i);
     if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) {
       std::fill_n(samples, out.places, rgb[0]);
-    } else if (!fill_node(sums, rgb, luminance, samples)) {
+    } else if (!fill_node(
+                   sums, rgb, luminance,
+                   nodes == nullptr ? std::vector<double>(out.places, 0.0) : offsets_at(*nodes, i, bands),
+                   samples)) {
       return make_error(
           ErrorCode::kBadArgument,
           "tetrahedral has no spectrum between 0 and 1 over the bands {} for RGB {}, {}, {} of its grid; "

@@ -7,6 +7,7 @@
 
 #include "kernels/abi.hpp"
 #include "src/color/working_space.hpp"
+#include "src/upsampling/grid/measured_colors.hpp"
 
 namespace spectile {
 
@@ -31,9 +32,10 @@ struct GridModel {
 };
 
 /// The grid of five levels, ((k / 4)^1.5), whose spectra are sigmoids of the observer's functions; times the
-/// white of the space, where it is that of a light. Errors: kBadArgument where a node's colour has no such
-/// spectrum; kOutOfMemory.
-Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer);
+/// white of the space, where it is that of a light. `nodes`: what was learned of them; may be null. Errors:
+/// kBadArgument where a node's colour has no such spectrum; kOutOfMemory.
+Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer,
+                               const LearnedNodes* nodes);
 
 /// The same grid at other places: linear between two of its own, the next one's with the share `part`.
 struct GridPlaceAt {

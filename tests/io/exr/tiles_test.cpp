@@ -100,7 +100,7 @@ TEST_F(Tiles, HoldTheScanlinesPixelsWhateverTheSize) {
   for (const auto& [width, height] : {std::pair{1, 1}, {131, 67}, {200, 128}}) {
     SCOPED_TRACE(width);
     make(width, height, width == 131 ? Imf::FLOAT : Imf::HALF);
-    for (const Method method : {kDefaultMethod, Method::kSigmoid}) {
+    for (const Method method : {kDefaultMethod, Method::kSigmoid, Method::kTetrahedral}) {
       UpsampleImageOptions options;
       options.method = method;
       options.pixel = height == 67 ? SampleType::kFloat : SampleType::kHalf;

@@ -1,9 +1,11 @@
 // Texts that are built to take long: time grows with their length, not with its square.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <functional>
 #include <spectile/image/channel_map.hpp>
+#include <spectile/image/nodes_file.hpp>
 #include <spectile/image/plan_file.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
@@ -36,6 +38,9 @@ struct Case {
 void parse_plan_text(const std::string& /*path*/, const std::string& text) {
   static_cast<void>(parse_plan(text, "plan"));
 }
+void parse_nodes_text(const std::string& /*path*/, const std::string& text) {
+  static_cast<void>(parse_nodes(text, "nodes"));
+}
 void parse_table(const std::string& path, const std::string& text) {
   test::write_text(path, text);
   static_cast<void>(load_spectrum_table(path));
@@ -46,10 +51,13 @@ void parse_map(const std::string& path, const std::string& text) {
 }
 
 const Case kCases[] = {
+    {"levels of nodes",
+     [](std::size_t n) { return "{\"method\":\"tetrahedral\",\"levels\":[" + repeated("0,", n) + "0]}"; },
+     parse_nodes_text},
     {"objects in a list", [](std::size_t n) { return "{\"illuminants\":[" + repeated("{},", n) + "{}]}"; },
      parse_plan_text},
-    {"objects of a key", [](std::size_t n) { return "{\"illuminants\":[" + repeated("{\"a\":1},", n) + "1]}"; },
-     parse_plan_text},
+    {"objects of a key",
+     [](std::size_t n) { return "{\"illuminants\":[" + repeated("{\"a\":1},", n) + "1]}"; }, parse_plan_text},
     {"lists in a list", [](std::size_t n) { return "{\"illuminants\":[" + repeated("[],", n) + "[]]}"; },
      parse_plan_text},
     {"keys",
@@ -113,6 +121,10 @@ double seconds_of(const Case& c, const std::string& path, std::size_t n) {
 }
 
 TEST(ParseTime, GrowsWithTheLength) {
+  // Else memory goes back to the system after each text, and getting its pages again takes several times as
+  // long as the parsing.
+  ASSERT_EQ(mallopt(M_MMAP_THRESHOLD, 1 << 30), 1);
+  ASSERT_EQ(mallopt(M_TRIM_THRESHOLD, 1 << 30), 1);
   const test::TempFolder folder;
   for (const Case& c : kCases) {
     const double once = seconds_of(c, folder / "text", c.n);

@@ -3,6 +3,7 @@
 
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
+#include <spectile/upsampling/learned_nodes.hpp>
 #include <spectile/spectra/band_weights.hpp>
 
 #include "src/base/digest.hpp"
@@ -75,6 +76,13 @@ std::string to_text(const RgbSpace& space) {
   return fmt::format("{}#{}{}", quoted(space.name), digest.text(), space.relative_to_d65 ? " under D65" : "");
 }
 
+std::string to_text(const LearnedNodes& nodes) {
+  Digest digest;
+  for (const double nm : nodes.wavelengths_nm) digest.add(nm);
+  for (const float offset : nodes.offsets) digest.add(static_cast<double>(offset));
+  return fmt::format("{}#{}", nodes.reflectances, digest.text());
+}
+
 /// The first and the last pixel, both included.
 std::string to_text(const PixelWindow& w) {
   return fmt::format("{},{},{},{}", w.x0, w.y0, std::int64_t{w.x1} - 1, std::int64_t{w.y1} - 1);
@@ -132,6 +140,7 @@ class Line {
     add("bands", to_text(options.bands));
     add("white", options.light ? quoted(options.light->name) + to_text(options.light->spectrum) : "D65");
     add("white-observer", to_string(options.observer));
+    if (options.nodes) add("nodes", to_text(*options.nodes));
     add("input-space", options.input_space ? to_text(*options.input_space) : "of the file");
     add("negative", enum_name(kNegatives, options.negative));
     add("out-of-gamut",

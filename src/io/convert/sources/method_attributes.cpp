@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <optional>
+#include <spectile/image/nodes_file.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/io/channels/plan_attribute.hpp"
@@ -15,6 +16,8 @@ namespace {
 constexpr const char* kLayout = "1.0";
 // Says what alpha means to spectra and coefficients.
 constexpr const char* kAlpha = "spectileAlpha";
+// Learned nodes, as JSON.
+constexpr const char* kNodesAttribute = "spectileNodes";
 
 std::string bands_text(const Bands& bands) {
   std::string out;
@@ -66,8 +69,7 @@ std::vector<std::string> coefficient_channels(const Upsampler& upsampler, bool p
 }
 
 bool has_straight_coefficients(const PartHeader& header, const Upsampler& upsampler) {
-  return !rows::is_homogeneous(upsampler) &&
-         header.text(kAlpha) == to_string(AlphaMeaning::kPremultiplied);
+  return !rows::is_homogeneous(upsampler) && header.text(kAlpha) == to_string(AlphaMeaning::kPremultiplied);
 }
 
 void add_alpha_attribute(TextAttributes& texts, AlphaMeaning meaning) {
@@ -81,7 +83,7 @@ void pass_alpha_attribute(TextAttributes& texts, const PartHeader& source) {
 std::vector<std::string> method_attribute_names() {
   return {"spectileMethod", "spectileLight",        "spectileObserver",     "spectileQuantity",
           "spectileBands",  "spectileLightSamples", "spectileKeepNegative", "spectileCoefficients",
-          kAlpha,           kPlanAttribute};
+          kAlpha,           kPlanAttribute,         kNodesAttribute};
 }
 
 TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions& options,
@@ -96,6 +98,7 @@ TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions
   out.emplace_back("spectileQuantity", std::string(to_string(upsampler.quantity())));
   out.emplace_back("spectileBands", bands_text(upsampler.bands()));
   if (options.light) out.emplace_back("spectileLightSamples", samples_text(options.light->spectrum));
+  if (options.nodes) out.emplace_back(kNodesAttribute, nodes_to_json(*options.nodes, true));
   if (upsampler.options().negative == NegativeSamples::kKeep) out.emplace_back("spectileKeepNegative", "yes");
   return out;
 }
@@ -126,6 +129,10 @@ Result<Upsampler> upsampler_of(const PartHeader& header, const std::string& path
   if (const auto keep = header.text("spectileKeepNegative")) {
     if (keep != "yes") return damaged(path, "spectileKeepNegative");
     options.negative = NegativeSamples::kKeep;
+  }
+  if (const auto nodes = header.text(kNodesAttribute)) {
+    SPECTILE_ASSIGN(auto read, parse_nodes(*nodes, path + ": attribute " + kNodesAttribute));
+    options.nodes = std::make_shared<const LearnedNodes>(std::move(read));
   }
   if (const auto alpha = header.text(kAlpha)) {
     const bool known = alpha == to_string(AlphaMeaning::kPremultiplied) ||

@@ -80,6 +80,7 @@ Result<Upsampler> upsampler_for(const MethodOptions& options) {
   if (gamut == GamutPolicy::kKeep) out.negative = NegativeSamples::kKeep;
   if (options.light) out.light = options.light->spectrum;
   out.observer = options.observer;
+  out.nodes = options.nodes;
   return Upsampler::create(options.method, options.quantity, options.bands, out);
 }
 

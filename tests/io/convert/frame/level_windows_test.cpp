@@ -68,7 +68,7 @@ TEST_F(LevelWindows, ArePaddedAndCutToTheDisplayWindow) {
     show(40, 19, one.origin, one.display);
     UpsampleImageOptions up;
     up.bands = *Bands::uniform(400, 700, 25);
-    for (const Method method : {Method::kSmitsExact, Method::kSigmoid}) {
+    for (const Method method : {Method::kSmitsExact, Method::kSigmoid, Method::kTetrahedral}) {
       up.method = method;
       check_fitted(in_, up, &upsample_image, method == Method::kSigmoid ? 0 : test::kMixing);
       EXPECT_THAT(notes_, Contains(HasSubstr(one.note)));
@@ -86,7 +86,7 @@ TEST_F(LevelWindows, OfEveryConversion) {
   up.bands = *Bands::uniform(400, 700, 25);
   ASSERT_TRUE(upsample_image(in_, folder_ / "s.exr", up));
   check_fitted(folder_ / "s.exr", ProjectImageOptions{}, &project_image, 0);
-  for (const Method method : {Method::kSmitsExact, Method::kSigmoid}) {
+  for (const Method method : {Method::kSmitsExact, Method::kSigmoid, Method::kTetrahedral}) {
     up.method = method;
     up.store = Store::kCoefficients;
     ASSERT_TRUE(upsample_image(in_, folder_ / "c.exr", up));

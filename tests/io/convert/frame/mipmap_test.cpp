@@ -44,7 +44,7 @@ TEST_F(Mipmap, SizesThatDoNotHalveAreCoveredExactly) {
        {std::pair{1, 1}, {1, 13}, {19, 1}, {2, 3}, {64, 32}, {97, 101}, {100, 60}, {127, 2}, {129, 65}}) {
     SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
     make(width, height, width % 2 == 0 ? Imf::FLOAT : Imf::HALF);
-    for (const Method method : {Method::kSmitsExact, Method::kSigmoid}) {
+    for (const Method method : {Method::kSmitsExact, Method::kSigmoid, Method::kTetrahedral}) {
       UpsampleImageOptions options;
       options.bands = *Bands::uniform(400, 700, 25);
       options.method = method;
@@ -59,7 +59,8 @@ TEST_F(Mipmap, OfSamplesThatAreLimitedAreAveragesOfThose) {
   make(37, 23);
   for (const GamutPolicy policy : {GamutPolicy::kClip, GamutPolicy::kKeep}) {
     for (const NegativeInput negative : {NegativeInput::kGamut, NegativeInput::kClip, NegativeInput::kKeep}) {
-      for (const Method method : {Method::kSmits, Method::kSmits1999, Method::kMallett}) {
+      for (const Method method :
+           {Method::kSmits, Method::kSmits1999, Method::kMallett, Method::kTetrahedral}) {
         SCOPED_TRACE(to_string(method));
         UpsampleImageOptions options;
         options.bands = *Bands::uniform(400, 700, 25);
@@ -150,7 +151,8 @@ TEST_F(Mipmap, WhatIsMaskedCountsAsBlack) {
   }
   picture.add("A", Imf::HALF, [](int x, int) { return x == 0 ? 1 : 0; });
   test::write_scanlines(in_, picture);
-  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid}) {
+  for (const Method method :
+       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kTetrahedral}) {
     UpsampleImageOptions options;
     options.method = method;
     options.masking = Masking::kAlpha;

@@ -80,8 +80,8 @@ double difference(const std::string& a, const std::string& b) {
 }
 
 TEST_F(PlannedBandsImages, HaveAChannelForEachWavelengthAndGiveTheirColoursBack) {
-  for (const Method method :
-       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                              Method::kSigmoidObserver, Method::kTetrahedral}) {
     options_.method = method;
     options_.out_of_gamut = GamutPolicy::kClip;
     const auto made = upsample_image(in_, spectral_, options_);
@@ -120,7 +120,8 @@ TEST_F(PlannedBandsImages, AreSeenUnderTheirPlansLightsAndNoOthers) {
 }
 
 TEST_F(PlannedBandsImages, ExpandFromCoefficientsToTheSameBits) {
-  for (const Method method : {Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method :
+       {Method::kSmitsExact, Method::kSigmoid, Method::kSigmoidObserver, Method::kTetrahedral}) {
     options_.method = method;
     const std::string compact = folder_ / "compact.exr";
     ASSERT_TRUE(upsample_image(in_, spectral_, options_));

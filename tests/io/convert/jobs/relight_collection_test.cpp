@@ -115,7 +115,7 @@ TEST_P(RelitCollection, IsWhatUpsamplingAndProjectingGive) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, RelitCollection,
                          testing::Values(Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
-                                         Method::kSigmoidObserver),
+                                         Method::kSigmoidObserver, Method::kTetrahedral),
                          [](const auto& method) {
                            std::string name(to_string(method.param));
                            std::erase(name, '-');

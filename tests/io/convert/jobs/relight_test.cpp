@@ -10,8 +10,9 @@
 namespace spectile {
 namespace {
 
-constexpr Method kMethods[] = {Method::kSmits,   Method::kSmits1999, Method::kSmitsExact,
-                               Method::kMallett, Method::kSigmoid,   Method::kSigmoidObserver};
+constexpr Method kMethods[] = {Method::kSmits,      Method::kSmits1999, Method::kSmitsExact,
+                               Method::kMallett,    Method::kSigmoid,   Method::kSigmoidObserver,
+                               Method::kTetrahedral};
 
 class RelitImages : public testing::Test {
  protected:
@@ -87,8 +88,8 @@ TEST_F(RelitImages, AreWhatUpsamplingAndProjectingGive) {
 TEST_F(RelitImages, UnderTheirOwnLightAreTheTexture) {
   const std::string input = texture();
   const test::Picture before = test::read_picture(input);
-  for (const Method method :
-       {Method::kSmitsExact, Method::kMallett, Method::kSigmoid, Method::kSigmoidObserver}) {
+  for (const Method method : {Method::kSmitsExact, Method::kMallett, Method::kSigmoid,
+                              Method::kSigmoidObserver, Method::kTetrahedral}) {
     RelightImageOptions options = under("D65");
     options.method = method;
     const test::Picture after = relit(input, options);

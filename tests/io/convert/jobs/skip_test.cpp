@@ -112,7 +112,7 @@ std::vector<std::pair<std::string, test::Picture>> kinds() {
 
 TEST_F(Skipping, EveryKindOfImageGivesTheSameBytes) {
   for (auto& [name, picture] : kinds()) {
-    for (const Method method : {kDefaultMethod, Method::kSigmoid}) {
+    for (const Method method : {kDefaultMethod, Method::kSigmoid, Method::kTetrahedral}) {
       SCOPED_TRACE(name + ", " + std::string(to_string(method)));
       UpsampleImageOptions options;
       options.method = method;
@@ -165,7 +165,7 @@ TEST_F(Skipping, RealImagesGiveTheSameBytes) {
         input.find("WideColorGamut") == std::string::npos) {
       continue;
     }
-    for (const Method method : {kDefaultMethod, Method::kSigmoid}) {
+    for (const Method method : {kDefaultMethod, Method::kSigmoid, Method::kTetrahedral}) {
       SCOPED_TRACE(input);
       UpsampleImageOptions options;
       options.method = method;

@@ -145,7 +145,7 @@ TEST_F(PixelMasks, CoefficientsAreThoseOfBlack) {
   picture_.add("A", Imf::HALF, [](int x, int y) { return corner(x, y) ? 0 : 1; });
   test::write_scanlines(folder_ / "in.exr", picture_);
   options_.store = Store::kCoefficients;
-  for (const Method method : {kDefaultMethod, Method::kSigmoid}) {
+  for (const Method method : {kDefaultMethod, Method::kSigmoid, Method::kTetrahedral}) {
     options_.method = method;
     ASSERT_TRUE(upsample_image(folder_ / "in.exr", folder_ / "c.exr", options_));
     ExpandImageOptions expand;

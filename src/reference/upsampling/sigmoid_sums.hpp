@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/sigmoid_constants.hpp"
-#include "src/reference/sigmoid.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 
 namespace spectile::reference {
 

@@ -1,5 +1,5 @@
 // Scalar twins of the Smits kernels.
-#include "src/reference/smits.hpp"
+#include "src/reference/upsampling/smits.hpp"
 
 #include "src/reference/rows.hpp"
 #include "src/reference/twins.hpp"

@@ -1,12 +1,12 @@
 // The sigmoid in one lane, and the search for its coefficients.
-#include "src/reference/sigmoid.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "src/reference/sigmoid_sums.hpp"
+#include "src/reference/upsampling/sigmoid_sums.hpp"
 
 namespace spectile::reference {
 namespace {

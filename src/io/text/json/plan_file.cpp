@@ -6,7 +6,7 @@
 #include <spectile/output_file.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/io/text/plan_flaw.hpp"
+#include "src/io/text/json/plan_flaw.hpp"
 #include "src/io/text/spectrum_text.hpp"
 
 namespace spectile {

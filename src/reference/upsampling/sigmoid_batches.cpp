@@ -1,8 +1,8 @@
 // Scalar twins of the sigmoid kernels over batches.
 #include "src/reference/rows.hpp"
-#include "src/reference/sigmoid.hpp"
 #include "src/reference/sums.hpp"
 #include "src/reference/twins.hpp"
+#include "src/reference/upsampling/sigmoid.hpp"
 
 namespace spectile::reference {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/reference/sigmoid_sums.hpp"
+#include "src/reference/upsampling/sigmoid_sums.hpp"
 
 namespace spectile::reference {
 

@@ -1,0 +1,168 @@
+// Tetrahedral interpolation: from three numbers to spectra and colours.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <spectile/upsampling/relight.hpp>
+#include <spectile/upsampling/upsample.hpp>
+
+#include "bench/operations/operation.hpp"
+#include "src/upsampling/method_rows.hpp"
+
+namespace spectile::measure {
+namespace {
+
+using kernels::GridTable;
+
+/// A colour before its first band: the largest component; three cells, each by three levels; the order of
+/// three parts, four places and four weights.
+constexpr double kPlaces = 3 + 3 * 14 + 26;
+/// And a band: four products, three sums, the limit from below, its share of a transposition.
+constexpr double kGridBand = 10;
+constexpr const char* kPlacesAre = "finding the cells and the order of their parts: selections";
+
+/// Weights of a colour's four nodes, in double, and where the nodes lie.
+struct Nodes {
+  double weight[4];
+  std::size_t at[4];  ///< in floats from the first
+};
+
+Nodes find_nodes(const GridTable& table, const double* rgb) {
+  const double most = std::max({rgb[0], rgb[1], rgb[2]});
+  const double size = (table.homogeneous ? 0.0 : 1.0) < most ? most : 1.0;
+  const auto count = static_cast<std::size_t>(table.count);
+  std::array<std::pair<double, std::size_t>, 3> part;  // and the step along that component
+  Nodes out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double v = rgb[k] / size;
+    const auto level = [&](std::size_t i) { return static_cast<double>(table.levels[i]); };
+    std::size_t cell = 0;
+    while (cell + 2 < count && v >= level(cell + 1)) ++cell;
+    const std::size_t step = table.stride * (k == 0 ? count * count : k == 1 ? count : 1);
+    part[k] = {(v - level(cell)) / (level(cell + 1) - level(cell)), step};
+    out.at[0] += cell * step;
+  }
+  std::sort(part.begin(), part.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  double left = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.weight[k] = (left - part[k].first) * size;
+    out.at[k + 1] = out.at[k] + part[k].second;
+    left = part[k].first;
+  }
+  out.weight[3] = left * size;
+  return out;
+}
+
+/// `rows` samples of each node, limited from below: `bound` u of the sum of the weights' magnitudes times the
+/// largest sample of the grid.
+std::function<double(const double*, const double*, double)> grid_error(
+    const std::shared_ptr<const void>& owner, const GridTable& table, std::size_t rows, double lowest,
+    double bound) {
+  double largest = 0;
+  const auto nodes = static_cast<std::size_t>(table.count * table.count * table.count);
+  for (std::size_t i = 0; i < nodes * table.stride; ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(table.nodes[i])));
+  // Three parts, each times up to 8; eight products.
+  const double roundings = (3 * 8 + 8) * std::max(1.0, largest);
+  return error_against(rows, roundings, false, bound,
+                       [=](const double* rgb, double* reference, double* scale) {
+                         static_cast<void>(owner);
+                         if (!finite3(rgb)) {
+                           // NaN stays NaN; infinities go through by the kernel's own order, which the
+                           // reference's bits tell.
+                           const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
+                           std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+                           std::fill_n(scale, rows, std::numeric_limits<double>::max());
+                           return;
+                         }
+                         const Nodes found = find_nodes(table, rgb);
+                         double sum = 0;
+                         for (const double w : found.weight) sum += std::abs(w);
+                         for (std::size_t row = 0; row < rows; ++row) {
+                           double v = 0;
+                           for (std::size_t i = 0; i < 4; ++i)
+                             v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
+                           reference[row] = std::max(v, lowest);
+                           scale[row] = sum * largest;
+                         }
+                       });
+}
+
+void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler) {
+  const std::size_t bands = upsampler->bands().count();
+  const GridTable table = rows::grid_spectra(*upsampler, nullptr, nullptr).table;
+  Operation& op = add_operation(to, "upsampling", "upsample, tetrahedral", "colour", {3, 1}, {1, bands});
+  op.operations = kPlaces + kGridBand * static_cast<double>(bands);
+  op.divisions = 3;
+  op.can_stream = true;
+  // Parts of cells within 3 u, of three components; then 7 of weights, multiplying and adding.
+  op.bound = 16;
+  op.bottleneck = kPlacesAre;
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    k.grid_blocks(a.out(), rows::grid_spectra(*upsampler, a.in3().data(), nullptr), a.blocks, a.non_temporal);
+  };
+  op.error = grid_error(upsampler, table, bands, 0, op.bound);
+
+  Operation& line = to.emplace_back(Operation(to.back()));
+  line.name = "upsample to a line of floats, tetrahedral";
+  line.out = {bands, 1};
+  line.can_stream = false;
+  line.cache_only = true;
+  line.run = [=](const KernelTable& k, const Arrays& a) {
+    k.grid_rows_float(line_rows(a, bands), rows::grid_spectra(*upsampler, a.in3().data(), nullptr), a.n());
+  };
+
+  Operation& halves = to.emplace_back(Operation(to.back()));
+  halves.name = "upsample to a line of halves, tetrahedral";
+  halves.out = {bands, 1, Element::kHalf};
+  halves.operations += 3 * static_cast<double>(bands);
+  halves.unit = "half ULP of half";
+  halves.bound = 1.001;  // rounding to half, and the float before it
+  halves.run = [=](const KernelTable& k, const Arrays& a) {
+    k.grid_rows_half(line_rows(a, bands), rows::grid_spectra(*upsampler, a.in3().data(), nullptr), a.n());
+  };
+  halves.error = [=](const double* rgb, const double* out, double /*tiny*/) {
+    if (!finite3(rgb)) return kOutOfDomain;
+    const Nodes found = find_nodes(table, rgb);
+    double magnitudes = 0;
+    for (const double w : found.weight) magnitudes += std::abs(w);
+    if (magnitudes > 1e37) return kOutOfDomain;
+    double worst = 0;
+    for (std::size_t row = 0; row < bands; ++row) {
+      double v = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
+      v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
+      const double rounding = 16 * 0x1p-24 * magnitudes;
+      worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
+    }
+    return worst;
+  };
+}
+
+void add_fold(std::vector<Operation>& to, const std::shared_ptr<const Relighter>& relighter) {
+  const GridTable table = rows::folded_spectra(*relighter, nullptr, nullptr).table;
+  Operation& op = add_operation(to, "relighting", "relight, tetrahedral", "colour", {3, 1}, {3, 1});
+  op.operations = kPlaces + 3 * (kGridBand - 1);
+  op.divisions = 3;
+  op.bound = 24;  // nodes' colours differ by up to twice the largest
+  op.bottleneck = "twelve loads of four floats a colour, from 2 KB of nodes";
+  op.fill = uniform_values(3, 0.0F, 1.0F);
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    k.grid_fold(a.out3().data(), rows::folded_spectra(*relighter, a.in3().data(), nullptr), a.n());
+  };
+  op.error = grid_error(relighter, table, 3, -kBeyond, op.bound);
+}
+
+}  // namespace
+
+void add_grids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
+               const std::shared_ptr<const Relighter>& relighter) {
+  add_spectra(to, upsampler);
+  add_fold(to, relighter);
+}
+
+}  // namespace spectile::measure
