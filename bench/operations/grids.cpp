@@ -21,6 +21,7 @@ using kernels::GridTable;
 constexpr double kPlaces = 3 + 3 * 14 + 26;
 /// And a band: four products, three sums, the limit from below, its share of a transposition.
 constexpr double kGridBand = 10;
+constexpr double kBound = 11;  // u
 constexpr const char* kPlacesAre = "finding the cells and the order of their parts: selections";
 
 /// Weights of a colour's four nodes, in double, and where the nodes lie.
@@ -97,8 +98,9 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   op.operations = kPlaces + kGridBand * static_cast<double>(bands);
   op.divisions = 3;
   op.can_stream = true;
-  // Parts of cells within 3 u, of three components; then 7 of weights, multiplying and adding.
-  op.bound = 16;
+  // The part of a cell: the division's rounding over the narrowest width that it may lie in, 0.35 at 1, and
+  // two roundings of its own, 2.5 u, times three components; then 3 u of weights, multiplying and adding.
+  op.bound = kBound;
   op.bottleneck = kPlacesAre;
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
@@ -136,7 +138,7 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
       for (std::size_t i = 0; i < 4; ++i)
         v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
-      const double rounding = 16 * 0x1p-24 * magnitudes;
+      const double rounding = kBound * 0x1p-24 * magnitudes;
       worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
     }
     return worst;
@@ -148,7 +150,7 @@ void add_fold(std::vector<Operation>& to, const std::shared_ptr<const Relighter>
   Operation& op = add_operation(to, "relighting", "relight, tetrahedral", "colour", {3, 1}, {3, 1});
   op.operations = kPlaces + 3 * (kGridBand - 1);
   op.divisions = 3;
-  op.bound = 24;  // nodes' colours differ by up to twice the largest
+  op.bound = 18;  // the same, but nodes' colours differ by up to twice the largest
   op.bottleneck = "twelve loads of four floats a colour, from 2 KB of nodes";
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {

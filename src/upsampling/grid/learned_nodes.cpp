@@ -62,6 +62,23 @@ double matern(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (1 + d) * std::exp(-d);
 }
 
+/// Factors a positive definite matrix in place, of which the lower triangle counts, in parts between which it
+/// asks `go_on`; false where that says no. Source: Golub, Van Loan, Matrix Computations, 4.2.6.
+bool factor(MatrixXd& a, const std::function<bool()>& go_on) {
+  constexpr Index kPanel = 256;
+  for (Index at = 0; at < a.rows(); at += kPanel) {
+    if (go_on && !go_on()) return false;
+    const Index size = std::min(kPanel, a.rows() - at);
+    const Index rest = a.rows() - at - size;
+    const MatrixXd own = a.block(at, at, size, size).selfadjointView<Eigen::Lower>().llt().matrixL();
+    a.block(at, at, size, size) = own;
+    auto below = a.block(at + size, at, rest, size);
+    own.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);
+    a.block(at + size, at + size, rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+  }
+  return true;
+}
+
 /// Errors: kBadArgument for a value that is not finite.
 Result<VectorXd> arguments(const Spectrum& reflectance) {
   VectorXd out(kPlaces);
@@ -81,9 +98,9 @@ Result<VectorXd> arguments(const Spectrum& reflectance) {
 Result<void> check_sizes(std::span<const ReflectanceSet> sets) {
   std::size_t count = 0;
   for (const ReflectanceSet& set : sets) count += set.reflectances.size();
-  if (count >= kFewestReflectances && count <= kMost) return {};
+  if (count >= kMinReflectances && count <= kMost) return {};
   return make_error(ErrorCode::kBadArgument, "nodes are learned from {} to {} reflectances, not from {}",
-                    kFewestReflectances, kMost, count);
+                    kMinReflectances, kMost, count);
 }
 
 Result<LearnedNodes> learn_from(std::span<const ReflectanceSet> sets, const LearningOptions& options) {
@@ -105,11 +122,11 @@ Result<LearnedNodes> learn_from(std::span<const ReflectanceSet> sets, const Lear
       covariance(row, row) = 1 + noise;
     }
   }
-  if (options.go_on && !options.go_on()) return make_error(ErrorCode::kCancelled, "stopped on request");
   const MatrixXd filter = offset_filter(options.observer).middleRows(kFirstKept, kKept);
   const MatrixXd offsets = x * filter.transpose();
-  // Only the lower triangle is read.
-  const MatrixXd weights = covariance.llt().solve(offsets);
+  if (!factor(covariance, options.go_on)) return make_error(ErrorCode::kCancelled, "stopped on request");
+  const MatrixXd half = covariance.triangularView<Eigen::Lower>().solve(offsets);
+  const MatrixXd weights = covariance.transpose().triangularView<Eigen::Upper>().solve(half);
 
   LearnedNodes out = {
       options.light.value_or(NamedLight{"D65", *illuminant("D65")}), options.observer, count, {}, {}};

@@ -7,7 +7,7 @@
 
 namespace spectile {
 
-inline constexpr std::size_t kFewestReflectances = 10;
+inline constexpr std::size_t kMinReflectances = 10;
 
 /// Errors: kBadArgument for sets of too few reflectances together, or too many.
 Result<void> check_sizes(std::span<const ReflectanceSet> sets);

@@ -1,9 +1,9 @@
 // Settings as one line of text, and whether an image that holds one needs to be made anew.
 #include <sys/stat.h>
 
+#include <spectile/image/nodes_file.hpp>
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
-#include <spectile/upsampling/learned_nodes.hpp>
 #include <spectile/spectra/band_weights.hpp>
 
 #include "src/base/digest.hpp"
