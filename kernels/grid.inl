@@ -9,11 +9,10 @@
 namespace spectile::kernels {
 namespace {
 
-// Bands that are mixed before they are transposed: a block of them stays in the first-level cache.
+// Pixels and bands that are mixed before they are transposed, which stay in the first-level cache: lanes of a
+// line of it, which non-temporal stores fill at once.
+inline constexpr std::size_t kGridPixels = 16;
 inline constexpr std::size_t kGridBands = 64;
-// Floats from pixel to pixel of what is mixed: not a power of two, which would share few sets of the cache.
-inline constexpr std::size_t kGridStride = kGridBands + 16;
-inline constexpr std::size_t kVectors = kLanes / kWidth;
 
 /// Where a block's pixels lie in the grid: the four nodes around each, in floats from the first, and their
 /// weights.
@@ -88,82 +87,102 @@ inline void place_block(GridPlaces& out, const GridSpectra& spectra, std::size_t
   }
 }
 
-/// Samples of one pixel over `bands` bands, a multiple of 16, from the first of them on.
-inline void mix_pixel(float* dst, const GridPlaces& places, std::size_t lane, const float* first,
-                      std::size_t bands) noexcept {
-  const float* node[4];
-  F32 weight[4];
-  for (std::size_t i = 0; i < 4; ++i) {
-    node[i] = first + places.node[i][lane];
-    weight[i] = F32(places.weight[i][lane]);
-  }
-  for (std::size_t band = 0; band < bands; band += kWidth) {
-    F32 sum = weight[0] * load(node[0] + band) + weight[1] * load(node[1] + band);
-    for (std::size_t i = 2; i < 4; ++i) sum = sum + weight[i] * load(node[i] + band);
-    store(dst + band, sum);
+/// Samples of kGridPixels pixels over `bands` bands, a multiple of 16, from the first of them on: kBands,
+/// unless that is 0.
+template <std::size_t kBands>
+inline void mix_pixels(float* dst, const GridPlaces& places, std::size_t lane, const float* first,
+                       std::size_t bands) noexcept {
+  const std::size_t count = kBands == 0 ? bands : kBands;
+  for (std::size_t i = 0; i < kGridPixels; ++i, ++lane, dst += kGridBands) {
+    const float* const n0 = first + places.node[0][lane];
+    const float* const n1 = first + places.node[1][lane];
+    const float* const n2 = first + places.node[2][lane];
+    const float* const n3 = first + places.node[3][lane];
+    const F32 w0(places.weight[0][lane]);
+    const F32 w1(places.weight[1][lane]);
+    const F32 w2(places.weight[2][lane]);
+    const F32 w3(places.weight[3][lane]);
+    for (std::size_t band = 0; band < count; band += kWidth) {
+      store(dst + band,
+            ((w0 * load(n0 + band) + w1 * load(n1 + band)) + w2 * load(n2 + band)) + w3 * load(n3 + band));
+    }
   }
 }
 
-/// Calls put(band, samples) for every band, with the kVectors vectors of a block's pixels.
+/// Calls put(band, lane, sample) for every band and vector of lanes of a block, of the first `used` lanes.
 template <class Put>
-inline void grid_block(const GridSpectra& spectra, std::size_t at, Put put) noexcept {
-  const GridTable& table = spectra.table;
-  GridPlaces places;
-  place_block(places, spectra, at, table.stride);
+inline void mix_block(const GridTable& table, const GridPlaces& places, std::size_t used, Put put) noexcept {
   const F32 lowest(table.lowest);
-  alignas(64) float mixed[kLanes * kGridStride];
+  alignas(64) float mixed[kGridPixels * kGridBands];
   for (std::size_t first = 0; first < table.bands; first += kGridBands) {
     const std::size_t left = table.stride - first;
     const std::size_t bands = left < kGridBands ? left : kGridBands;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      mix_pixel(mixed + lane * kGridStride, places, lane, table.nodes + first, bands);
-    }
-    const std::size_t rest = table.bands - first;
-    const std::size_t used = rest < bands ? rest : bands;
-    for (std::size_t band = 0; band < used; band += 4) {
-      F32 samples[4][kVectors];
-      for (std::size_t j = 0; j < kVectors; ++j) {
-        F32 quads[4];
-        quads_to_lanes(mixed + j * kWidth * kGridStride + band, kGridStride, quads);
-        for (std::size_t i = 0; i < 4; ++i) samples[i][j] = max(lowest, quads[i]);
+    const std::size_t count = table.bands - first < bands ? table.bands - first : bands;
+    for (std::size_t lane = 0; lane < used; lane += kGridPixels) {
+      const float* const nodes = table.nodes + first;
+      if (bands == kGridBands) {
+        mix_pixels<kGridBands>(mixed, places, lane, nodes, bands);
+      } else {
+        mix_pixels<0>(mixed, places, lane, nodes, bands);
       }
-      for (std::size_t i = 0; i < 4 && band + i < used; ++i) put(first + band + i, samples[i]);
+      for (std::size_t band = 0; band < count; band += kWidth) {
+        for (std::size_t group = 0; group < kGridPixels; group += kWidth) {
+          F32 v[kWidth];
+          for (std::size_t i = 0; i < kWidth; ++i) v[i] = load(mixed + (group + i) * kGridBands + band);
+          transpose_rows(v);
+#pragma GCC unroll 16
+          for (std::size_t i = 0; i < kWidth; ++i) {
+            if (band + i < count) put(first + band + i, lane + group, max(lowest, v[i]));
+          }
+        }
+      }
     }
+  }
+}
+
+/// Calls put(block, band, lane, sample) for n lanes, in blocks of which the last may be a part.
+template <class Put>
+inline void grid_lanes(const GridSpectra& spectra, std::size_t n, Put put) noexcept {
+  const GridSpectra s = spectra;  // a copy that stores through `put` leave alone
+  GridPlaces places;
+  for (std::size_t at = 0; at < n; at += kLanes) {
+    place_block(places, s, at, s.table.stride);
+    const std::size_t used = n - at < kLanes ? n - at : kLanes;
+    mix_block(s.table, places, used,
+              [at, put](std::size_t band, std::size_t lane, F32 v) { put(at / kLanes, band, lane, v); });
   }
 }
 
 void grid_blocks(float* dst, const GridSpectra& spectra, std::size_t blocks, bool non_temporal) noexcept {
-  const GridSpectra s = spectra;  // a copy that stores through dst leave alone
-  for (std::size_t block = 0; block < blocks; ++block, dst += s.table.bands * kLanes) {
-    if (non_temporal) {
-      grid_block(s, block * kLanes, [dst](std::size_t band, const F32* samples) {
-        for (std::size_t j = 0; j < kVectors; ++j) stream(dst + band * kLanes + j * kWidth, samples[j]);
-      });
-    } else {
-      grid_block(s, block * kLanes, [dst](std::size_t band, const F32* samples) {
-        for (std::size_t j = 0; j < kVectors; ++j) store(dst + band * kLanes + j * kWidth, samples[j]);
-      });
-    }
+  const std::size_t bands = spectra.table.bands;
+  const auto place = [=](std::size_t block, std::size_t band, std::size_t lane) {
+    return dst + (block * bands + band) * kLanes + lane;
+  };
+  if (non_temporal) {
+    grid_lanes(spectra, blocks * kLanes, [=](std::size_t block, std::size_t band, std::size_t lane, F32 v) {
+      stream(place(block, band, lane), v);
+    });
+    stream_fence();
+  } else {
+    grid_lanes(spectra, blocks * kLanes, [=](std::size_t block, std::size_t band, std::size_t lane, F32 v) {
+      store(place(block, band, lane), v);
+    });
   }
-  if (non_temporal) stream_fence();
 }
 
 template <class Sample>
 inline void grid_rows(void* const* rows, const GridSpectra& spectra, std::size_t n) noexcept {
-  const GridSpectra s = spectra;
-  const std::size_t whole = n / kLanes * kLanes;
-  for (std::size_t at = 0; at < whole; at += kLanes) {
-    grid_block(s, at, [rows, at](std::size_t band, const F32* samples) {
-      for (std::size_t j = 0; j < kVectors; ++j)
-        put_sample(static_cast<Sample*>(rows[band]) + at + j * kWidth, samples[j]);
-    });
-  }
-  if (whole == n) return;
-  // The rest of the row goes through a small buffer: what follows a row's end is not ours.
-  grid_block(s, whole, [rows, whole, n](std::size_t band, const F32* samples) {
-    alignas(64) Sample tail[kLanes];
-    for (std::size_t j = 0; j < kVectors; ++j) put_sample(tail + j * kWidth, samples[j]);
-    std::memcpy(static_cast<Sample*>(rows[band]) + whole, tail, (n - whole) * sizeof(Sample));
+  grid_lanes(spectra, n, [=](std::size_t block, std::size_t band, std::size_t lane, F32 v) {
+    const std::size_t at = block * kLanes + lane;
+    Sample* const row = static_cast<Sample*>(rows[band]);
+    if (at + kWidth <= n) {
+      put_sample(row + at, v);
+    } else if (at < n) {
+      // The rest of the row goes through a small buffer: what follows a row's end is not ours.
+      alignas(64) Sample tail[kWidth];
+      put_sample(tail, v);
+      std::memcpy(row + at, tail, (n - at) * sizeof(Sample));
+    }
   });
 }
 

@@ -6,7 +6,7 @@
 namespace spectile::kernels {
 namespace {
 
-// --- Registers of quads to lanes. strided_quads: quads at base + at[0], at[4], at[8], ... of an array of
+// --- Quads to lanes. strided_quads: quads at base + at[0], at[4], at[8], ... of an array of
 // places; strided_spread: the numbers at p[0], p[4], ..., each in all of a quad.
 
 #if defined(SPECTILE_KERNEL_AVX512)
@@ -14,9 +14,6 @@ inline __m512 four_quads(const float* a, const float* b, const float* c, const f
   const __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
   const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(c)), _mm_loadu_ps(d), 1);
   return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
-}
-inline F32 quads_at(const float* p, std::size_t stride) {
-  return four_quads(p, p + stride, p + 2 * stride, p + 3 * stride);
 }
 inline F32 strided_quads(const float* base, const std::int32_t* at) {
   return four_quads(base + at[0], base + at[4], base + at[8], base + at[12]);
@@ -36,9 +33,6 @@ inline void transpose_quads(F32 v[4]) {
   v[3] = _mm512_shuffle_ps(ab_high, cd_high, 0xEE);
 }
 #elif defined(SPECTILE_KERNEL_AVX2)
-inline F32 quads_at(const float* p, std::size_t stride) {
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(p + stride), 1);
-}
 inline F32 strided_quads(const float* base, const std::int32_t* at) {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(base + at[0])), _mm_loadu_ps(base + at[4]),
                               1);
@@ -57,9 +51,6 @@ inline void transpose_quads(F32 v[4]) {
   v[3] = _mm256_shuffle_ps(ab_high, cd_high, 0xEE);
 }
 #else
-inline F32 quads_at(const float* p, std::size_t /*stride*/) {
-  return quad_load(p);
-}
 inline F32 strided_quads(const float* base, const std::int32_t* at) {
   return quad_load(base + at[0]);
 }
@@ -73,10 +64,31 @@ inline void transpose_quads(F32 v[4]) {
 }
 #endif
 
-/// Quads of kWidth pixels, `stride` floats from one to the next, become their components: out[k] [kWidth].
-inline void quads_to_lanes(const float* from, std::size_t stride, F32 out[4]) {
-  for (std::size_t i = 0; i < 4; ++i) out[i] = quads_at(from + i * stride, 4 * stride);
-  transpose_quads(out);
+/// Rows of kWidth numbers become columns: out[i] has number i of each row.
+inline void transpose_rows(F32 v[kWidth]) {
+  for (std::size_t q = 0; q < kQuads; ++q) transpose_quads(v + 4 * q);
+#if defined(SPECTILE_KERNEL_AVX512)
+  // v[4 q + i] has, in quad k, number 4 k + i of the rows 4 q to 4 q + 3.
+  F32 out[kWidth];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const __m512 ab_low = _mm512_shuffle_f32x4(v[i], v[4 + i], 0x44);
+    const __m512 ab_high = _mm512_shuffle_f32x4(v[i], v[4 + i], 0xEE);
+    const __m512 cd_low = _mm512_shuffle_f32x4(v[8 + i], v[12 + i], 0x44);
+    const __m512 cd_high = _mm512_shuffle_f32x4(v[8 + i], v[12 + i], 0xEE);
+    out[i] = _mm512_shuffle_f32x4(ab_low, cd_low, 0x88);
+    out[4 + i] = _mm512_shuffle_f32x4(ab_low, cd_low, 0xDD);
+    out[8 + i] = _mm512_shuffle_f32x4(ab_high, cd_high, 0x88);
+    out[12 + i] = _mm512_shuffle_f32x4(ab_high, cd_high, 0xDD);
+  }
+  for (std::size_t i = 0; i < kWidth; ++i) v[i] = out[i];
+#elif defined(SPECTILE_KERNEL_AVX2)
+  for (std::size_t i = 0; i < 4; ++i) {
+    const __m256 a = v[i];
+    const __m256 b = v[4 + i];
+    v[i] = _mm256_permute2f128_ps(a, b, 0x20);
+    v[4 + i] = _mm256_permute2f128_ps(a, b, 0x31);
+  }
+#endif
 }
 
 }  // namespace
