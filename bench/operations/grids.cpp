@@ -22,7 +22,8 @@ constexpr double kPlaces = 3 + 3 * 14 + 26;
 /// And a band: four products, three sums, the limit from below, its share of a transposition.
 constexpr double kGridBand = 10;
 constexpr double kBound = 11;  // u
-constexpr const char* kPlacesAre = "finding the cells and the order of their parts: selections";
+constexpr const char* kLoads =
+    "loads: for each vector of samples four of nodes, one to be transposed, and weights and places a pixel";
 
 /// Weights of a colour's four nodes, in double, and where the nodes lie.
 struct Nodes {
@@ -101,7 +102,7 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   // The part of a cell: the division's rounding over the narrowest width that it may lie in, 0.35 at 1, and
   // two roundings of its own, 2.5 u, times three components; then 3 u of weights, multiplying and adding.
   op.bound = kBound;
-  op.bottleneck = kPlacesAre;
+  op.bottleneck = kLoads;
   op.fill = uniform_values(3, 0.0F, 1.0F);
   op.run = [=](const KernelTable& k, const Arrays& a) {
     k.grid_blocks(a.out(), rows::grid_spectra(*upsampler, a.in3().data(), nullptr), a.blocks, a.non_temporal);
