@@ -254,7 +254,10 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
       for (const bool film : {false, true}) {
         SPECTILE_ASSIGN(auto methods,
                         film ? film_methods(scene, options.quick) : rgb_methods(scene, options.quick));
-        const auto found = measure_methods(film ? kFilmJob : kRgbJob, scene, methods, timing, report.methods);
+        auto found = measure_methods(film ? kFilmJob : kRgbJob, scene, methods, timing, report.methods);
+        for (MethodSpeed& method : found) {
+          if (!options.differences) method.differences.clear();
+        }
         report.methods.insert(report.methods.end(), found.begin(), found.end());
       }
       SPECTILE_ASSIGN(auto side, measure_representations(scene, timing));

@@ -1,5 +1,6 @@
 """Processes, Markdown tables, line plots, uncompressed OpenEXR images and colour differences, for figures.py."""
 import array
+import json
 import math
 import os
 import struct
@@ -21,6 +22,11 @@ def run(command):
             sys.exit(f"figures: {' '.join(map(str, command))}: exit code {child.returncode}")
         out.seek(0)
         return out.read(), wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024e-6
+
+
+def tool(args, *words):
+    """The JSON that `spectile WORDS --json` prints."""
+    return json.loads(run([args.tool, *words, "--json", "--threads", args.threads])[0])
 
 
 def table(heads, rows):

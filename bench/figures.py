@@ -23,13 +23,9 @@ import statistics
 import sys
 import tempfile
 
+from figure_methods import methods
 from figure_report import report
-from figure_tools import Image, color_errors, line_plot, run, table, write_image
-
-
-def tool(args, *words):
-    """The JSON that `spectile WORDS --json` prints."""
-    return json.loads(run([args.tool, *words, "--json", "--threads", args.threads])[0])
+from figure_tools import color_errors, line_plot, run, table, tool, write_image
 
 
 def convergence(args):
@@ -245,66 +241,6 @@ def compression(args):
                 [[f"`{method}`", f"{pixels / statistics.median(r['seconds'] for r in runs) * 1e-6:.2f}",
                   f"{runs[0]['bytes_written'] / pixels:.1f}", f"{100 * runs[0]['bytes_written'] / none:.0f} %"]
                  for method, runs in found.items()]))
-
-
-METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer", "tetrahedral")
-
-
-def grid(path, side):
-    """All colours of a grid over the RGB cube, a line for each blue and green."""
-    steps = [i / (side - 1) for i in range(side)]
-    write_image(path, side, side * side, ((steps, [g] * side, [b] * side) for b in steps for g in steps))
-    return path
-
-
-def methods(args):
-    cube, spectra, back = grid(args.file("cube.exr"), args.side), args.file("spectra.exr"), args.file("back.exr")
-    rows = []
-    for method in METHODS:
-        tool(args, "upsample", cube, "-o", spectra, "--method", method, "--depth", "float", "--compression", "none")
-        tool(args, "project", spectra, "-o", back, "--compression", "none")
-        channel, low, high, rough = 0, 1, 0, []
-        a, b, image = Image(cube), Image(back), Image(spectra)
-        for y in range(a.height):
-            before, after, line = a.line(y), b.line(y), image.line(y)
-            channel = max(channel, *(abs(p - q) for name in "RGB" for p, q in zip(before[name], after[name])))
-            bands = [line[name] for name in sorted(n for n in line if n.endswith("nm"))]
-            low, high = min(low, *map(min, bands)), max(high, *map(max, bands))
-            for s in zip(*bands):
-                rough.append(math.sqrt(sum((s[i - 1] - 2 * s[i] + s[i + 1])**2 for i in range(1, len(s) - 1))))
-        colors = list(color_errors(cube, back))
-        rows.append([f"`{method}`", f"{channel:.1e}", f"{statistics.fmean(colors):.1e}, {max(colors):.1e}",
-                     f"{low:.3g} to {high:.6g}", f"{statistics.fmean(rough):.3f}, {max(rough):.3f}"])
-    print(f"Round trip of a {args.side}^3 grid of linear sRGB, 60 bands, float throughout. Roughness: root of the sum of squared "
-          "second differences over the bands.\n")
-    print(table(["method", "largest error of a channel", "CIEDE2000 mean, max", "samples", "roughness mean, max"], rows))
-    print(f"\nReflectances: share of a {args.gamut_side}^3 grid of each space that a method covers, and the CIEDE2000 that clipping "
-          "the others along their dominant wavelength costs, mean of those and maximum\n")
-    cube, rows = grid(args.file("gamut.exr"), args.gamut_side), []
-    for space in ("srgb", "display-p3", "adobe-rgb", "rec2020", "acescg", "aces2065-1"):
-        row = [space]
-        for method in ("smits-exact", "sigmoid", "sigmoid-observer"):
-            words = ("upsample", cube, "--input-space", space, "--method", method, "--depth", "float", "--compression", "none")
-            tool(args, *words, "-o", args.file("kept.exr"), "--out-of-gamut", "keep")
-            outside = tool(args, *words, "-o", args.file("clipped.exr"), "--out-of-gamut", "clip")["out_of_gamut_pixels"]
-            moved = [e for e in color_errors(args.file("kept.exr"), args.file("clipped.exr")) if e > 1e-4] or [0]
-            row += [f"{100 - 100 * outside / args.gamut_side**3:.1f} %", f"{statistics.fmean(moved):.2f}, {max(moved):.1f}"]
-        rows.append(row)
-    print(table(["input space", *(word for m in ("smits-exact", "sigmoid", "sigmoid-observer") for word in (f"`{m}` covers", "costs"))], rows))
-    lights = ("A", "FL2", "FL11", "LED-B3", "HP1")
-    words = [args.tool, "bench", "--json", "-q", "--cache-only", "--threads", 1, "--illuminant", ",".join(lights)]
-    for file in args.reflectances:
-        words += ["--reflectances", file]
-    r = json.loads(run(words)[0])
-    print("\nMeasured reflectances under other lights, from their RGB under D65 (clipped to sRGB's cube); CIEDE2000 against sums at "
-          "every nanometre, mean and maximum\n")
-    of = {(w["light"], w["name"]): w["error"] for w in r["ways"]}
-    found = [[of[light, name] for light in lights] for name in (f"{m}, 60 even bands, fused" for m in METHODS)
-             if (lights[0], name) in of]
-    print(table(["method", *lights, "mean of all"],
-                [[f"`{method}`"] + [f"{e['mean']:.2f}, {e['maximum']:.1f}" for e in errors]
-                 + [f"{statistics.fmean(e['mean'] for e in errors):.2f}"]
-                 for method, errors in zip([m for m in METHODS if (lights[0], f"{m}, 60 even bands, fused") in of], found)]))
 
 
 def main():

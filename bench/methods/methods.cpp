@@ -81,6 +81,7 @@ std::vector<MethodSpeed> measure_methods(const std::string& job, const MethodSce
       errors.add(reference_xyz(*scene.light, {&(*scene.reflectances)[r]}), method.result(r));
     }
     w.error = errors.summary();
+    w.differences = errors.differences();
     out.push_back(std::move(w));
   }
   return out;

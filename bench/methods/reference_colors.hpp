@@ -42,6 +42,7 @@ class ErrorList {
   explicit ErrorList(const Xyz& white) : white_(white) {}
   void add(const Xyz& reference, const Xyz& found);
   ColorError summary() const { return summarize(values_); }
+  const std::vector<double>& differences() const { return values_; }
 
  private:
   Xyz white_;

@@ -61,6 +61,7 @@ static void to_json(Json& json, const MethodSpeed& w) {
   json = {{"job", w.job},     {"light", w.light}, {"spiky", w.line_spectrum},     {"family", w.family},
           {"name", w.name},   {"bands", w.bands}, {"nanoseconds", w.nanoseconds}, {"spread", w.spread},
           {"bytes", w.bytes}, {"error", w.error}, {"frontier", w.frontier}};
+  if (!w.differences.empty()) json["differences"] = w.differences;
 }
 
 static void to_json(Json& json, const RepresentationSpeed& r) {

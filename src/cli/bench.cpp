@@ -16,6 +16,7 @@ namespace {
 
 struct BenchArguments {
   bool quick = false;
+  bool differences = false;
   bool stress = false;
   bool stress_only = false;
   bool json = false;
@@ -148,6 +149,7 @@ BenchmarkOptions make_options(const BenchArguments& a, std::vector<std::string>&
   out.threads = a.threads;
   out.isas = a.isas;
   out.lights = a.lights;
+  out.differences = a.differences;
   out.only = a.only;
   out.seed = static_cast<std::uint64_t>(a.seed);
   for (const std::string& file : a.reflectances) {
@@ -183,6 +185,7 @@ int run_bench(const BenchArguments& a) {
   if (!a.plot.empty() && (a.stress_only || !a.only.empty())) {
     return complain_usage("--plot draws methods, which neither --only nor --stress-only measures");
   }
+  if (a.differences && !a.json) return complain_usage("--differences needs --json, which holds them");
   if (!a.quiet && !a.json) {
     for (const std::string& note : notes) print("note: {}\n", note);
   }
@@ -244,6 +247,8 @@ void add_bench(const Command& app, int& exit) {
       .not_negative()
       .show_default();
   command.flag("--json", a->json, kRunGroup, "Print the whole report as JSON");
+  command.flag("--differences", a->differences, kRunGroup,
+               "With --json: each reflectance's colour difference by each method too");
   command.flag("-q,--quiet", a->quiet, kRunGroup, "No progress bar");
   command.help_group(kRunGroup);
   command.footer(

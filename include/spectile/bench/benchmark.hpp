@@ -101,6 +101,7 @@ struct MethodSpeed {
   std::uint64_t bytes = 0;  ///< that the pixel takes in memory or in a file, 0 where nothing is stored
   ColorError error;
   bool frontier = false;  ///< no other method is as fast and as accurate, by mean error
+  std::vector<double> differences = {};  ///< of each reflectance, where they were asked for
 };
 
 /// One representation of light and materials in a scene of some bounces.
@@ -167,6 +168,7 @@ struct BenchmarkOptions {
   std::vector<std::string> isas;       ///< every one that runs here where empty
   std::vector<std::string> lights;     ///< by name; four smooth and line spectra where empty
   std::vector<std::string> only;       ///< operations whose name contains one of these; all where empty
+  bool differences = false;            ///< also of each reflectance by each method
   std::vector<Spectrum> reflectances;  ///< errors are over these; the 24 of the ColorChecker where empty
   std::uint64_t seed = 1;              ///< of the inputs
   /// Called before each part; false ends the run with kCancelled.
