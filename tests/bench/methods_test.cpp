@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spectile/bench/benchmark.hpp>
 #include <spectile/color/color_difference.hpp>
@@ -112,6 +113,16 @@ TEST(ReferenceColors, ErrorsAreSummedUpByMeanMaximumAndNinetyFiveOfAHundredDoNot
   const ColorError e = list.summary();
   EXPECT_DOUBLE_EQ(e.maximum, all[99]);
   EXPECT_DOUBLE_EQ(e.percentile95, all[94]);
+  EXPECT_EQ(list.differences(), all);
+}
+
+TEST(Benchmark, JsonHoldsDifferencesWhereThereAreSome) {
+  BenchmarkReport report;
+  report.methods.resize(2);
+  report.methods[1].differences = {0.5, 2};
+  const auto json = nlohmann::json::parse(benchmark_to_json(report));
+  EXPECT_FALSE(json["ways"][0].contains("differences"));
+  EXPECT_EQ(json["ways"][1]["differences"], (std::vector<double>{0.5, 2}));
 }
 
 TEST(Evaluation, AllowsTheBoundAndNotMore) {

@@ -154,6 +154,7 @@ TEST(Bench, WhatIsWrongIsSaidInOneLine) {
   expect_refused({"--only", "no-such-operation"}, 2, "operation");
   expect_refused({"--stress-only", "--only", "no-such-operation"}, 2, "operation");
   expect_refused({"--seed", "seven"}, 2, "seven");
+  expect_refused({"--differences"}, 2, "needs --json");
   expect_refused({"--no-such-option"}, 2, "--no-such-option");
   expect_refused({"more"}, 2, "more");
   const test::TempFolder folder;
