@@ -63,7 +63,8 @@ std::function<double(const double*, const double*, double)> grid_error(
     const std::shared_ptr<const void>& owner, const GridTable& table, std::size_t rows, double lowest,
     double bound) {
   double largest = 0;
-  const auto nodes = static_cast<std::size_t>(table.count * table.count * table.count);
+  const auto count = static_cast<std::size_t>(table.count);
+  const std::size_t nodes = count * count * count;
   for (std::size_t i = 0; i < nodes * table.stride; ++i)
     largest = std::max(largest, std::abs(static_cast<double>(table.nodes[i])));
   // Three parts, each times up to 8; eight products.
@@ -140,6 +141,7 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
         v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
       const double rounding = kBound * 0x1p-24 * magnitudes;
+      if (!std::isfinite(out[row])) return kBeyond;
       worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
     }
     return worst;

@@ -17,7 +17,6 @@
 namespace spectile::measure {
 namespace {
 
-using kernels::kLanes;
 using kernels::kSmitsRow;
 
 /// Cost of a mixture of bases before its first band: ordering three numbers and finding their bases.
@@ -122,6 +121,7 @@ void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
       if (magnitudes > 1e37) return kOutOfDomain;
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
       const double rounding = 6 * 0x1p-24 * magnitudes;
+      if (!std::isfinite(out[row])) return kBeyond;
       worst = std::max(worst, std::max(0.0, std::abs(out[row] - v) - rounding) / half_of_half_step(v));
     }
     return worst;

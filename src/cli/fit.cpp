@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <spectile/image/nodes_file.hpp>
 
@@ -30,6 +29,33 @@ struct Materials {
   std::vector<std::string> notes;
 };
 
+/// Notes what is made up of a file's reflectances, or left out.
+void note_limits(const std::string& file, const std::vector<Spectrum>& spectra,
+                 std::vector<std::string>& notes) {
+  constexpr double kFirstNm = 400;  // of what is learned
+  constexpr double kLastNm = 720;
+  std::size_t held = 0;
+  std::size_t limited = 0;
+  for (const Spectrum& spectrum : spectra) {
+    const auto* table = std::get_if<PiecewiseLinearSpectrum>(&spectrum.kind());
+    if (table == nullptr) continue;
+    const auto nm = table->wavelengths_nm();
+    held += nm.front() > kFirstNm || nm.back() < kLastNm ? 1 : 0;
+    const auto [low, high] = std::ranges::minmax(table->values());
+    limited += low < 0 || high > 1 ? 1 : 0;
+  }
+  if (held > 0) {
+    notes.push_back(fmt::format(
+        "{}: {} of {} reflectances are not given from {} to {} nm; beyond their data the nearest value is "
+        "taken, and learned",
+        file, held, spectra.size(), kFirstNm, kLastNm));
+  }
+  if (limited > 0) {
+    notes.push_back(fmt::format("{}: {} of {} reflectances have values below 0 or above 1, which are limited",
+                                file, limited, spectra.size()));
+  }
+}
+
 /// Throws: Stop.
 Materials materials_of(const FitArguments& a) {
   Materials out;
@@ -37,7 +63,8 @@ Materials materials_of(const FitArguments& a) {
     SpectrumTable table = take(find_reflectances(text, file_options(a.spectra)));
     out.count += table.spectra.size();
     out.notes.insert(out.notes.end(), table.notes.begin(), table.notes.end());
-    out.sets.push_back({std::filesystem::path(text).filename().string(), std::move(table.spectra)});
+    note_limits(text, table.spectra, out.notes);
+    out.sets.push_back({text, std::move(table.spectra)});
   }
   return out;
 }
@@ -71,12 +98,19 @@ std::string verdict(const LearningTrial& trial) {
                      100 * (1 - trial.learned.mean / best_other(trial)));
 }
 
+/// The reason why there are no errors.
+std::string unevaluated(const LearningTrial& trial) {
+  if (!trial.held_out.empty() && trial.learned_from < kMinReflectances)
+    return fmt::format("not evaluated, as the others are only {} reflectances", trial.learned_from);
+  return "not evaluated, as none is inside sRGB";
+}
+
 void print_report(const std::vector<LearningTrial>& trials) {
   print("  {:<44} {:>7} {:>7} {:>7}\n", "CIEDE2000 under A, FL2, FL11, LED-B3, HP1", "mean", "95 %",
         "maximum");
   for (const LearningTrial& trial : trials) {
     if (trial.reflectances == 0) {
-      print("  held out: {}: none is inside sRGB\n", held_out(trial));
+      print("  held out: {}: {}\n", held_out(trial), unevaluated(trial));
       continue;
     }
     print("  held out: {} ({} inside sRGB)\n", held_out(trial), trial.reflectances);
@@ -98,6 +132,11 @@ nlohmann::ordered_json report_json(const FitArguments& a, const Materials& mater
                                 {"trials", nlohmann::ordered_json::array()}};
   for (const LearningTrial& trial : trials) {
     nlohmann::ordered_json one = {{"held_out", held_out(trial)}, {"reflectances", trial.reflectances}};
+    if (trial.reflectances == 0) {
+      one["why"] = unevaluated(trial);
+      out["trials"].push_back(std::move(one));
+      continue;
+    }
     for (const auto& [name, error] : methods_of(trial)) {
       one[name] = {{"mean", error->mean}, {"percentile95", error->percentile95}, {"maximum", error->maximum}};
     }
@@ -113,6 +152,11 @@ int run_fit(const FitArguments& a) {
   std::vector<NamedFile> read = named_files(a.reflectances, kReflectancesRole);
   read.push_back({a.white, "the reference white (--white)"});
   check_outputs({{a.output, kOutputRole}}, files_among(read));
+  for (std::size_t i = 0; i < a.reflectances.size(); ++i) {
+    if (std::find(a.reflectances.begin(), a.reflectances.begin() + static_cast<std::ptrdiff_t>(i),
+                  a.reflectances[i]) != a.reflectances.begin() + static_cast<std::ptrdiff_t>(i))
+      return complain_usage(fmt::format("--reflectances names {} twice", a.reflectances[i]));
+  }
   catch_signals();
   LearningOptions options;
   options.observer = a.white_observer;
@@ -125,8 +169,8 @@ int run_fit(const FitArguments& a) {
   const Materials materials = materials_of(a);
   print_notes(a.common, materials.notes);
   const auto start = std::chrono::steady_clock::now();
-  const LearnedNodes nodes = take(learn_nodes(materials.sets, options));
   const auto trials = take(try_learning(materials.sets, options));
+  const LearnedNodes nodes = take(learn_nodes(materials.sets, options));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (interrupted()) return complain({ErrorCode::kCancelled, "stopped on request"});
   take(save_nodes(nodes, a.output));

@@ -10,9 +10,9 @@ namespace spectile {
 
 /// An upsampler's tables in the kernels' layout.
 struct UpsamplerAccess {
-  /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoids.
+  /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoids and tetrahedral.
   static const float* table(const Upsampler& upsampler) noexcept { return upsampler.table_.data(); }
-  /// Null for the methods that mix basis spectra.
+  /// Null for all but the sigmoids.
   static const SigmoidModel* sigmoid(const Upsampler& upsampler) noexcept { return upsampler.sigmoid_.get(); }
   /// Null for all but tetrahedral.
   static const std::shared_ptr<const GridModel>& grid(const Upsampler& upsampler) noexcept {
@@ -22,7 +22,7 @@ struct UpsamplerAccess {
 
 /// A relighter's table in the kernels' layout.
 struct RelighterAccess {
-  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids.
+  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids and tetrahedral.
   static const float* table(const Relighter& relighter) noexcept { return relighter.table_.data(); }
   /// Null for all but tetrahedral.
   static const GridModel* grid(const Relighter& relighter) noexcept { return relighter.grid_.get(); }

@@ -56,6 +56,12 @@ Result<std::vector<double>> white_in(const Bands& bands, const Upsampler& upsamp
   return out;
 }
 
+/// Bound of the sum of a lane's weights above 0, and of those below, over its largest magnitude or 1: a
+/// component below 0 is taken into the first cell, so many of its widths away.
+float extrapolation(const GridModel& model) {
+  return 2 + model.table.per_width[0];
+}
+
 }  // namespace
 
 Result<SampledRows> SampledRows::sized(const Upsampler& upsampler, std::size_t count) {
@@ -84,8 +90,8 @@ void SampledRows::copy(const Upsampler& upsampler) {
 void SampledRows::set_limits() {
   if (grid_) {
     for (const double v : grid_->grid.nodes) largest_ = std::max(largest_, std::abs(static_cast<float>(v)));
-    const float most = std::numeric_limits<float>::max() / std::max(4 * largest_, 1.0F);
-    limits_ = {most, most, most, most};
+    const float most = std::numeric_limits<float>::max() / (extrapolation(*grid_) * std::max(largest_, 1.0F));
+    limits_ = {most, most, most, 1};  // alpha, or what stands for it, is the only scale that there is
     return;
   }
   const std::size_t first = sigmoid_ ? kSigmoidWhite : 0;
@@ -166,7 +172,7 @@ Result<SampledRows> SampledRows::at(const Upsampler& upsampler, std::span<const 
 
 float SampledRows::bound(const std::array<float, 4>& largest) const noexcept {
   // With room for rounding.
-  if (grid_) return 7 * std::max({largest[0], largest[1], largest[2]}) * largest_;
+  if (grid_) return extrapolation(*grid_) * std::max({largest[0], largest[1], largest[2], 1.0F}) * largest_;
   if (!sigmoid_) return 3 * std::max({largest[0], largest[1], largest[2]}) * largest_;
   return 1.5F * (has_scale_ ? largest[3] : 1.0F) * largest_;
 }

@@ -112,18 +112,16 @@ Result<void> check_nodes(Method method, const LearnedNodes& nodes, const Measure
     return make_error(ErrorCode::kBadArgument, "learned nodes are for tetrahedral, not for {}",
                       to_string(method));
   }
-  if (nodes.wavelengths_nm.empty() || nodes.offsets.size() != kNodes * nodes.wavelengths_nm.size()) {
-    return make_error(ErrorCode::kBadArgument, "{} offsets are not {} for each of {} wavelengths",
-                      nodes.offsets.size(), kNodes, nodes.wavelengths_nm.size());
-  }
+  if (const std::string what = nodes_flaw(nodes); !what.empty())
+    return make_error(ErrorCode::kBadArgument, "the learned nodes cannot be: {}", what);
   if (!(options.primaries == kRec709)) {
     return make_error(ErrorCode::kBadArgument, "nodes are learned for the primaries of sRGB");
   }
   if (nodes.observer != options.observer || !same_light(nodes.light.spectrum, light)) {
     return make_error(
         ErrorCode::kBadArgument,
-        "the nodes were learned for the white {} and the observer of {}; others need their own, "
-        "which learning with the same white and observer makes",
+        "the nodes were learned for the white {} and the observer of {}; for another white or observer "
+        "they are learned anew (spectile fit --white, --white-observer)",
         nodes.light.name, to_string(nodes.observer));
   }
   return {};

@@ -3,11 +3,14 @@
 
 #include <filesystem>
 #include <random>
+#include <spectile/image/nodes_file.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/upsampling/learned_nodes.hpp>
 
 #include "src/spectra/sigmoid_functions.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/grid/measured_colors.hpp"
+#include "src/upsampling/method_rows.hpp"
 #include "tests/upsampling/round_trip.hpp"
 
 namespace spectile::test {
@@ -151,6 +154,39 @@ TEST(LearnedNodes, AreForTheirOwnMethodWhiteObserverAndPrimaries) {
     EXPECT_EQ(made.error().code, ErrorCode::kBadArgument);
     EXPECT_THAT(made.error().message, HasSubstr("learned")) << wrong;
   }
+}
+
+TEST(LearnedNodes, OffsetsThatNoColourAllowsAreWeakenedAndCounted) {
+  const ReflectanceSet set = color_checker();
+  LearnedNodes nodes = *learn_nodes({&set, 1});
+  const auto weakened = [](const LearnedNodes& of) {
+    const auto made = *Upsampler::create(Method::kTetrahedral, Quantity::kReflectance, Bands(), with(of));
+    EXPECT_LE(round_trip(made, cube_grid(9)).rgb, 2e-6);
+    return UpsamplerAccess::grid(made)->grid.weakened;
+  };
+  EXPECT_EQ(weakened(nodes), 0U);
+  // 0 in one half of the spectrum, 1 in the other: such spectra have one colour.
+  for (std::size_t i = 0; i < nodes.offsets.size(); ++i)
+    nodes.offsets[i] = i % nodes.wavelengths_nm.size() < 32 ? 1000.0F : -1000.0F;
+  EXPECT_GT(weakened(nodes), 50U);
+}
+
+TEST(LearnedNodes, WhatCannotBeIsRefusedAndWrittenAsLittle) {
+  const ReflectanceSet set = color_checker();
+  const LearnedNodes good = *learn_nodes({&set, 1});
+  for (int wrong = 0; wrong < 4; ++wrong) {
+    LearnedNodes nodes = good;
+    if (wrong == 0) nodes.offsets[7] = kNan;
+    if (wrong == 1) std::swap(nodes.wavelengths_nm[3], nodes.wavelengths_nm[4]);
+    if (wrong == 2) nodes.wavelengths_nm.clear();
+    if (wrong == 3) nodes.offsets.pop_back();
+    EXPECT_NE(nodes_flaw(nodes), "") << wrong;
+    const auto made = Upsampler::create(Method::kTetrahedral, Quantity::kReflectance, Bands(), with(nodes));
+    ASSERT_FALSE(made) << wrong;
+    EXPECT_EQ(made.error().code, ErrorCode::kBadArgument);
+    EXPECT_LT(nodes_to_json(nodes).size(), 3000U) << wrong;
+  }
+  EXPECT_EQ(nodes_flaw(good), "");
 }
 
 TEST(LearnedNodes, ErrorsAreSentences) {

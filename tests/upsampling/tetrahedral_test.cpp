@@ -6,6 +6,7 @@
 
 #include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/sampled_rows.hpp"
 #include "tests/upsampling/round_trip.hpp"
 
 namespace spectile::test {
@@ -155,6 +156,35 @@ TEST(Tetrahedral, WhatIsNotFiniteIsNanInEveryBand) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t b = 0; b < 60; ++b) ASSERT_TRUE(std::isnan(spectra.at(i, b))) << i;
   }
+}
+
+TEST(Tetrahedral, WhatMayOverflowLiesBeyondTheLimits) {
+  UpsamplerOptions keep;
+  keep.negative = NegativeSamples::kKeep;
+  const auto upsampler = tetrahedral(Quantity::kReflectance, Bands(), keep);
+  const auto rows = *rows::SampledRows::over(upsampler, upsampler.bands());
+  const float most = rows.limits()[0];
+  EXPECT_EQ(rows.limits()[3], 1);
+  for (int signs = 0; signs < 27; ++signs) {
+    const Rgb rgb = {most * static_cast<float>(signs % 3 - 1), most * static_cast<float>(signs / 3 % 3 - 1),
+                     most * static_cast<float>(signs / 9 - 1)};
+    const auto spectra = spectra_of(upsampler, lanes_of({rgb}));
+    for (std::size_t b = 0; b < 60; ++b) {
+      ASSERT_TRUE(std::isfinite(spectra.at(0, b))) << signs;
+      ASSERT_LE(std::abs(spectra.at(0, b)), rows.bound({most, most, most, 1})) << signs;
+    }
+  }
+  // Not far within either.
+  const auto beyond =
+      spectra_of(upsampler, lanes_of({{2 * most, -2 * most, -2 * most}, {-2 * most, 2 * most, 2 * most}}));
+  float largest = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t b = 0; b < 60; ++b) {
+      const float v = std::abs(beyond.at(i, b));
+      largest = std::isnan(v) ? kInf : std::max(largest, v);
+    }
+  }
+  EXPECT_GT(largest, 0.5F * rows.bound({most, most, most, 1}));
 }
 
 TEST(Tetrahedral, PrimariesWhoseCornersNoReflectanceHasAreAnError) {

@@ -17,6 +17,8 @@ namespace spectile {
 /// Levels of the nodes of Method::kTetrahedral along each component of RGB, ((k / 4)^1.5), and their number.
 std::span<const float> node_levels();
 inline constexpr std::size_t kNodes = 125;
+/// Reflectances that are learned from, at least.
+inline constexpr std::size_t kMinReflectances = 10;
 
 /// How the spectra of measured materials differ from the smooth ones of their colours, at each node.
 ///
@@ -31,6 +33,10 @@ struct LearnedNodes {
   std::vector<double> wavelengths_nm;  ///< ascending
   std::vector<float> offsets;          ///< [red][green][blue][wavelengths]
 };
+
+/// The first flaw of nodes, in words, empty for none: wavelengths that do not ascend or are not from 100 to
+/// 10000 nm, more than 4096 of them, lists of different lengths, offsets beyond -1000 to 1000.
+std::string nodes_flaw(const LearnedNodes& nodes);
 
 /// Reflectances of one origin: a file's.
 struct ReflectanceSet {
@@ -59,8 +65,9 @@ Result<LearnedNodes> learn_nodes(std::span<const ReflectanceSet> sets, const Lea
 /// Errors over reflectances that took no part, of methods that were given their RGB: CIEDE2000 under A, FL2,
 /// FL11, LED-B3 and HP1, over those within the cube of sRGB.
 struct LearningTrial {
-  std::string held_out;  ///< the set's name; empty for five folds over all of them
-  std::size_t reflectances = 0;
+  std::string held_out;          ///< the set's name; empty for the fifths
+  std::size_t reflectances = 0;  ///< evaluated: 0 where none is within the cube, or too few are left
+  std::size_t learned_from = 0;  ///< of a set: reflectances of the others
   ColorError sigmoid;
   ColorError sigmoid_observer;
   ColorError tetrahedral;  ///< not learned
@@ -69,8 +76,9 @@ struct LearningTrial {
   bool pays() const;
 };
 
-/// Learns from all but a part, and evaluates on that: of five folds, then of each set where there are
-/// several. Neighbours in a file are often alike: they go to different folds. Errors: as learn_nodes().
+/// Learns from all but a part, and evaluates on that: a fifth of each set, five times, as it lies in the
+/// file, since neighbours are often alike; then each set where there are several, from 10 reflectances of the
+/// others on. What is held out is not learned from where it occurs twice. Errors: as learn_nodes().
 Result<std::vector<LearningTrial>> try_learning(std::span<const ReflectanceSet> sets,
                                                 const LearningOptions& options = {});
 

@@ -30,7 +30,7 @@ std::vector<double> offsets_at(const LearnedNodes& nodes, std::size_t node, cons
 
 /// Samples of a node that is not grey; false where no sigmoid has its colour.
 bool fill_node(SigmoidSums& sums, const Triple& rgb, const Triple& luminance, std::vector<double> offsets,
-               double* samples) {
+               double* samples, bool& weakened) {
   // The reflectance of 1 - colour is 1 - reflectance.
   const bool bright = std::max({rgb[0], rgb[1], rgb[2]}) + std::min({rgb[0], rgb[1], rgb[2]}) > 1;
   const Triple target = bright ? Triple{1 - rgb[0], 1 - rgb[1], 1 - rgb[2]} : rgb;
@@ -46,6 +46,7 @@ bool fill_node(SigmoidSums& sums, const Triple& rgb, const Triple& luminance, st
     sums.set_offsets(offsets);
     if (sums.solve(target, learned)) {
       c = learned;
+      weakened = i > 0;
       break;
     }
     for (double& v : offsets) v = i + 2 < kHalvings ? v / 2 : 0.0;
@@ -77,6 +78,32 @@ std::array<double, 3> ColorGrid::color(std::size_t i) const {
           static_cast<double>(levels[i % n])};
 }
 
+NodeMixture node_mixture(const ColorGrid& grid, const std::array<double, 3>& rgb, bool homogeneous) {
+  const std::size_t n = grid.levels.size();
+  const std::size_t steps[3] = {n * n, n, 1};
+  const double most = std::max({rgb[0], rgb[1], rgb[2]});
+  const double size = most > (homogeneous ? 0.0 : 1.0) ? most : 1.0;
+  std::array<std::pair<double, std::size_t>, 3> part;  // and the step along that component
+  NodeMixture out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double v = rgb[k] / size;
+    const auto level = [&](std::size_t i) { return static_cast<double>(grid.levels[i]); };
+    std::size_t cell = 0;
+    while (cell + 2 < n && v >= level(cell + 1)) ++cell;
+    part[k] = {(v - level(cell)) / (level(cell + 1) - level(cell)), steps[k]};
+    out.node[0] += cell * steps[k];
+  }
+  std::sort(part.begin(), part.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  double left = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.weight[k] = (left - part[k].first) * size;
+    out.node[k + 1] = out.node[k] + part[k].second;
+    left = part[k].first;
+  }
+  out.weight[3] = left * size;
+  return out;
+}
+
 Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer,
                                const LearnedNodes* nodes) {
   SigmoidSums sums(bands, space, SigmoidFunctions::of(observer));
@@ -88,18 +115,21 @@ Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Ob
   for (std::size_t i = 0; i < out.count(); ++i) {
     double* const samples = out.nodes.data() + i * out.places;
     const Triple rgb = out.color(i);
+    bool weakened = false;
     if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) {
       std::fill_n(samples, out.places, rgb[0]);
     } else if (!fill_node(
                    sums, rgb, luminance,
                    nodes == nullptr ? std::vector<double>(out.places, 0.0) : offsets_at(*nodes, i, bands),
-                   samples)) {
+                   samples, weakened)) {
       return make_error(
           ErrorCode::kBadArgument,
-          "tetrahedral has no spectrum between 0 and 1 over the bands {} for RGB {}, {}, {} of its grid; "
-          "sigmoid-observer makes every colour that is possible",
+          "tetrahedral has no spectrum between 0 and 1 over the bands {}, under this white and for "
+          "this observer, for RGB {}, {}, {} of its grid; sigmoid-observer makes every colour that is "
+          "possible",
           bands.description(), rgb[0], rgb[1], rgb[2]);
     }
+    out.weakened += weakened ? 1 : 0;
     for (std::size_t b = 0; b < out.places; ++b) samples[b] *= space.white[b];
   }
   return out;

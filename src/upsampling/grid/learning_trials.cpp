@@ -1,5 +1,6 @@
 // Evaluates learned nodes on reflectances that took no part.
 #include <algorithm>
+#include <set>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/upsampling/learned_nodes.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -30,6 +31,8 @@ class Evaluation {
     if (options.light) out.upsampling_.light = options.light->spectrum;
     return out;
   }
+
+  const Bands& bands() const { return colors_->bands(); }
 
   /// Those within the cube.
   std::vector<const Spectrum*> inside(const std::vector<const Spectrum*>& reflectances) const {
@@ -79,25 +82,32 @@ class Evaluation {
   UpsamplerOptions upsampling_;
 };
 
-/// Reflectances apart by a rule: those that are learned from, and those that are held out.
+/// Reflectances apart by a rule: those that are held out, and those that are learned from, without what is
+/// also among the others.
 struct Split {
   std::vector<ReflectanceSet> learned;
   std::vector<const Spectrum*> held_out;
+  std::size_t count = 0;  ///< of those learned from
 };
 
+/// `is_held_out`: of set s, reflectance i.
 template <class IsHeldOut>
-Split split_by(std::span<const ReflectanceSet> sets, IsHeldOut is_held_out) {
+Split split_by(std::span<const ReflectanceSet> sets, const Bands& bands, IsHeldOut is_held_out) {
   Split out;
-  std::size_t i = 0;
+  std::set<std::vector<float>> known;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (std::size_t i = 0; i < sets[s].reflectances.size(); ++i) {
+      const Spectrum& r = sets[s].reflectances[i];
+      if (is_held_out(s, i) && known.insert(r.average_over(bands)).second) out.held_out.push_back(&r);
+    }
+  }
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ReflectanceSet& learned = out.learned.emplace_back();
-    for (const Spectrum& r : sets[s].reflectances) {
-      if (is_held_out(s, i++)) {
-        out.held_out.push_back(&r);
-      } else {
-        learned.reflectances.push_back(r);
-      }
+    for (std::size_t i = 0; i < sets[s].reflectances.size(); ++i) {
+      const Spectrum& r = sets[s].reflectances[i];
+      if (!is_held_out(s, i) && !known.contains(r.average_over(bands))) learned.reflectances.push_back(r);
     }
+    out.count += learned.reflectances.size();
   }
   return out;
 }
@@ -131,16 +141,19 @@ Result<std::vector<LearningTrial>> try_all(std::span<const ReflectanceSet> sets,
   SPECTILE_ASSIGN(const auto evaluation, Evaluation::create(options));
   std::array<std::vector<double>, 4> folded;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    const Split split = split_by(sets, [=](std::size_t, std::size_t i) { return i % kFolds == fold; });
-    SPECTILE_TRY(add_split(evaluation, split, options, folded));
+    const Split split = split_by(sets, evaluation.bands(), [=](std::size_t s, std::size_t i) {
+      return i * kFolds / sets[s].reflectances.size() == fold;
+    });
+    if (split.count > 0) SPECTILE_TRY(add_split(evaluation, split, options, folded));
   }
   out.push_back(trial_of({}, std::move(folded)));
   for (std::size_t s = 0; sets.size() > 1 && s < sets.size(); ++s) {
-    const Split split = split_by(sets, [=](std::size_t set, std::size_t) { return set == s; });
-    if (!check_sizes(split.learned)) continue;
+    const Split split =
+        split_by(sets, evaluation.bands(), [=](std::size_t set, std::size_t) { return set == s; });
     std::array<std::vector<double>, 4> differences;
-    SPECTILE_TRY(add_split(evaluation, split, options, differences));
+    if (split.count >= kMinReflectances) SPECTILE_TRY(add_split(evaluation, split, options, differences));
     out.push_back(trial_of(sets[s].name, std::move(differences)));
+    out.back().learned_from = split.count;
   }
   return out;
 }

@@ -7,8 +7,6 @@
 
 namespace spectile {
 
-inline constexpr std::size_t kMinReflectances = 10;
-
 /// Errors: kBadArgument for sets of too few reflectances together, or too many.
 Result<void> check_sizes(std::span<const ReflectanceSet> sets);
 

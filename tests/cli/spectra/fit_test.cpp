@@ -54,9 +54,10 @@ TEST_F(FitCommand, WritesNodesAndTheirErrorsOnWhatTookNoPart) {
   ASSERT_EQ(outcome.exit, 0) << outcome;
   EXPECT_THAT(outcome.out, HasSubstr("learned from 55 reflectances"));
   EXPECT_THAT(outcome.out, HasSubstr("held out: a fifth, five times"));
-  EXPECT_THAT(outcome.out, HasSubstr("held out: cloth.csv"));
+  EXPECT_THAT(outcome.out, HasSubstr("held out: " + (folder_ / "cloth.csv")));
   EXPECT_THAT(outcome.out, HasSubstr("for materials like these learning pays: "));
-  EXPECT_THAT(outcome.out, HasSubstr("for materials of another origin, as paints.csv learning pays: "));
+  EXPECT_THAT(outcome.out, HasSubstr("for materials of another origin, as " + (folder_ / "paints.csv") +
+                                     " learning pays: "));
   EXPECT_EQ(load_nodes(nodes_)->reflectances, 55U);
   const auto json = run_tool({"fit", "--reflectances", folder_ / "paints.csv", "-o", nodes_, "--json"});
   ASSERT_EQ(json.exit, 0) << json;
@@ -72,9 +73,10 @@ TEST_F(FitCommand, SaysWhenLearningDoesNotPay) {
   const auto outcome = run_tool(
       {"fit", "--reflectances", folder_ / "dips.csv", "--reflectances", folder_ / "humps.csv", "-o", nodes_});
   ASSERT_EQ(outcome.exit, 0) << outcome;
-  EXPECT_THAT(outcome.out, HasSubstr("for materials of another origin, as dips.csv learning does not pay: "));
-  EXPECT_THAT(outcome.out,
-              HasSubstr("for materials of another origin, as humps.csv learning does not pay: "));
+  EXPECT_THAT(outcome.out, HasSubstr("for materials of another origin, as " + (folder_ / "dips.csv") +
+                                     " learning does not pay: "));
+  EXPECT_THAT(outcome.out, HasSubstr("for materials of another origin, as " + (folder_ / "humps.csv") +
+                                     " learning does not pay: "));
 }
 
 TEST_F(FitCommand, NodesShapeSpectraAndTravelWithCoefficients) {
@@ -112,16 +114,36 @@ TEST_F(FitCommand, RelightAndVerifyTakeThem) {
   write_table(folder_ / "paints.csv", 40);
   write_image();
   ASSERT_EQ(run_tool({"fit", "--reflectances", folder_ / "paints.csv", "-o", nodes_}).exit, 0);
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"verify", folder_ / "in.exr"},
-        {"relight", folder_ / "in.exr", "--illuminant", "A", "-o", folder_ / "lit.exr"}}) {
-    std::vector<std::string> all = command;
-    for (const std::string& more :
-         {std::string("--method"), std::string("tetrahedral"), std::string("--nodes"), nodes_})
-      all.push_back(more);
+  const auto verified =
+      run_tool({"verify", folder_ / "in.exr", "--method", "tetrahedral", "--nodes", nodes_, "--json"});
+  EXPECT_EQ(verified.exit, 0) << verified;
+  EXPECT_GT(nlohmann::json::parse(verified.out)["max_oracle_difference"], 0);
+  const auto relit = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"relight", folder_ / "in.exr",  "--illuminant", "A",
+                                    "-o",      folder_ / "lit.exr", "--method",     "tetrahedral"};
+    all.insert(all.end(), more.begin(), more.end());
     const auto outcome = run_tool(all);
     EXPECT_EQ(outcome.exit, 0) << outcome;
-  }
+    return test::read_picture(folder_ / "lit.exr");
+  };
+  EXPECT_FALSE(relit({}).planes == relit({"--nodes", nodes_}).planes);
+}
+
+TEST_F(FitCommand, WhatIsHeldOutIsNotLearnedFromInAnotherFile) {
+  write_table(folder_ / "all.csv", 40);
+  write_table(folder_ / "some.csv", 15);  // the first 15 of the others
+  const auto trials = [&](std::vector<std::string> files) {
+    std::vector<std::string> all = {"fit", "-o", nodes_, "--json"};
+    for (const std::string& file : files) all.insert(all.end(), {"--reflectances", folder_ / file});
+    const auto outcome = run_tool(all);
+    EXPECT_EQ(outcome.exit, 0) << outcome;
+    return nlohmann::json::parse(outcome.out)["trials"];
+  };
+  const auto both = trials({"all.csv", "some.csv"});
+  ASSERT_EQ(both.size(), 3U);
+  EXPECT_FALSE(both[1].contains("pays"));
+  EXPECT_THAT(both[1]["why"].get<std::string>(), HasSubstr("the others are only 0 reflectances"));
+  EXPECT_TRUE(both[2].contains("pays"));
 }
 
 TEST_F(FitCommand, WrongUsesAreSaid) {

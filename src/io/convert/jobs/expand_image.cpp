@@ -170,7 +170,9 @@ Result<ImageReport> expand_file(const std::string& input, const std::string& out
   SPECTILE_ASSIGN(auto source, io::CoefficientSource::open(std::move(file), options.region));
   const Upsampler& upsampler = source->upsampler();
   const Bands bands = options.bands.value_or(upsampler.bands());
-  SPECTILE_ASSIGN(const auto rows, rows::SampledRows::over(upsampler, bands));
+  const auto over = rows::SampledRows::over(upsampler, bands);
+  if (!over) return make_error(over.error().code, "{}: {}", input, over.error().message);
+  const rows::SampledRows& rows = *over;
 
   ExpandJob job(*source, rows, options, setup.kernels);
   MethodOptions made;

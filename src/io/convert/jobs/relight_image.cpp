@@ -94,6 +94,7 @@ Result<ImageReport> relight_file(const std::string& input, const std::string& ou
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
+  io::note_nodes(upsampler, known.notes);
   const auto note_alpha = [&options](const io::LineStats& found, std::vector<std::string>& notes) {
     io::note_alpha(found, !options.alpha, notes);
   };

@@ -255,6 +255,7 @@ Result<ImageReport> upsample(const std::string& input, const std::string& output
   known.quantity = options.quantity;
   known.color_space = job.stage().space().description;
   known.notes = source->notes();
+  io::note_nodes(upsampler, known.notes);
   if (const std::string chosen = mask.chosen(); !chosen.empty())
     known.notes.push_back(fmt::format("{} is taken for the mask", chosen));
   const auto note_alpha = [&options](const io::LineStats& found, std::vector<std::string>& notes) {

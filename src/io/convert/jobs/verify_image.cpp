@@ -19,6 +19,7 @@
 #include "src/lanes/tiles.hpp"
 #include "src/reference/oracle/oracle.hpp"
 #include "src/reference/table.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile {
@@ -28,6 +29,8 @@ constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the err
 
 // Bound that coefficients() states for the RGB of a sigmoid's samples.
 constexpr double kSigmoidBound = 1e-6;
+// docs/accuracy.md, and rounding of the nodes.
+constexpr double kGridBound = 12 * kUlp;
 
 /// NaN of any kind are the same result; their payload is not specified.
 bool same_result(float a, float b) {
@@ -57,12 +60,16 @@ void merge(const VerifyReport& from, VerifyReport& into) {
 struct UpsamplingOracle {
   const Upsampler& upsampler;
   std::vector<std::array<double, 7>> basis;  // of methods that mix bases
-  std::optional<WorkingSpace> space;         // of the sigmoid
-  double largest_basis = 0;
+  std::optional<WorkingSpace> space;         // of the sigmoids
+  const GridModel* grid = nullptr;           // of tetrahedral
+  double largest_basis = 0;                  // or node
 
   /// Largest error of a colour's samples, over the largest possible one; for the sigmoid, of the RGB that its
-  /// samples come back as. None where the method states no bound.
-  std::optional<double> difference(const std::array<double, 3>& rgb, std::span<const float> samples) const {
+  /// samples come back as. None where the method states no bound. `scale`: of the spectrum.
+  std::optional<double> difference(const std::array<double, 3>& straight, double scale,
+                                   std::span<const float> samples) const {
+    if (grid != nullptr) return of_mixture(straight, scale, samples);
+    const std::array<double, 3> rgb = {scale * straight[0], scale * straight[1], scale * straight[2]};
     const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
     if (space) {
       const double size = upsampler.quantity() == Quantity::kReflectance ? 1.0 : *high;
@@ -86,10 +93,33 @@ struct UpsamplingOracle {
     }
     return most;
   }
+
+ private:
+  std::optional<double> of_mixture(const std::array<double, 3>& rgb, double scale,
+                                   std::span<const float> samples) const {
+    const NodeMixture mixture = node_mixture(grid->grid, rgb, grid->table.homogeneous);
+    double size = 0;
+    for (const double weight : mixture.weight) size += std::abs(scale * weight) * largest_basis;
+    if (!(size > 0x1p-100) || !(size <= static_cast<double>(std::numeric_limits<float>::max()))) return {};
+    double most = 0;
+    for (std::size_t b = 0; b < samples.size(); ++b) {
+      double sample = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        sample += scale * mixture.weight[i] * grid->grid.node(mixture.node[i])[b];
+      sample = std::max(sample, static_cast<double>(upsampler.lowest()));
+      most = std::max(most, std::abs(static_cast<double>(samples[b]) - sample) / size);
+    }
+    return most;
+  }
 };
 
 Result<UpsamplingOracle> oracle_of(const Upsampler& upsampler, const MethodOptions& options) {
   UpsamplingOracle out{upsampler, {}, {}};
+  if (const auto& grid = UpsamplerAccess::grid(upsampler)) {
+    out.grid = grid.get();
+    for (const double v : grid->grid.nodes) out.largest_basis = std::max(out.largest_basis, std::abs(v));
+    return out;
+  }
   if (!rows::mixes_bases(upsampler)) {
     const MeasuredSpectrum light = options.light ? options.light->spectrum : *illuminant("D65");
     SPECTILE_ASSIGN(out.space, working_space(options.bands, options.quantity == Quantity::kIlluminant,
@@ -137,7 +167,7 @@ Result<void> verify_upsampled(const kernels::KernelTable& kernels, const Upsampl
     for (std::size_t i = 0; i < std::min(kLanesPerBlock, width - at); ++i) {
       for (std::size_t b = 0; b < bands; ++b) samples[b] = expected[b * kLanesPerBlock + i];
       const double s = scales != nullptr ? static_cast<double>(scales[i]) : 1;
-      const auto difference = oracle.difference({s * in[0][i], s * in[1][i], s * in[2][i]}, samples);
+      const auto difference = oracle.difference({in[0][i], in[1][i], in[2][i]}, s, samples);
       if (difference) report.max_oracle_difference = std::max(report.max_oracle_difference, *difference);
     }
   }
@@ -221,7 +251,9 @@ Result<VerifyReport> verify_rgb(io::RgbSource& source, const MethodOptions& opti
   report.isa = kernels.name;
   report.what = fmt::format("{} {}, {} bands", to_string(options.method), to_string(options.quantity),
                             options.bands.count());
-  report.oracle_bound = rows::mixes_bases(upsampler) ? 6 * kUlp : kSigmoidBound;
+  report.oracle_bound = rows::mixes_bases(upsampler)  ? 6 * kUlp
+                        : rows::stores_rgb(upsampler) ? kGridBound
+                                                      : kSigmoidBound;
   const int step = io::strip_lines(source.header(), source.planes(), 1);
   for (int first = 0; first < source.height(); first += step) {
     const int lines = std::min(step, source.height() - first);

@@ -18,6 +18,8 @@ constexpr const char* kLayout = "1.0";
 constexpr const char* kAlpha = "spectileAlpha";
 // Learned nodes, as JSON.
 constexpr const char* kNodesAttribute = "spectileNodes";
+// In their place in spectral images: the number of reflectances that they were learned from.
+constexpr const char* kLearnedAttribute = "spectileLearnedFrom";
 
 std::string bands_text(const Bands& bands) {
   std::string out;
@@ -83,7 +85,7 @@ void pass_alpha_attribute(TextAttributes& texts, const PartHeader& source) {
 std::vector<std::string> method_attribute_names() {
   return {"spectileMethod", "spectileLight",        "spectileObserver",     "spectileQuantity",
           "spectileBands",  "spectileLightSamples", "spectileKeepNegative", "spectileCoefficients",
-          kAlpha,           kPlanAttribute,         kNodesAttribute};
+          kAlpha,           kPlanAttribute,         kNodesAttribute,        kLearnedAttribute};
 }
 
 TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions& options,
@@ -92,7 +94,10 @@ TextAttributes method_attributes(const Upsampler& upsampler, const MethodOptions
   out.emplace_back("spectileMethod", std::string(to_string(upsampler.method())));
   out.emplace_back("spectileLight", options.light ? options.light->name : "D65");
   out.emplace_back("spectileObserver", upsampler.options().observer == Observer::kCie1964 ? "1964" : "1931");
-  if (!coefficients) return out;
+  if (!coefficients) {
+    if (options.nodes) out.emplace_back(kLearnedAttribute, std::to_string(options.nodes->reflectances));
+    return out;
+  }
   add_plan_attribute(out, upsampler.bands());
   out.emplace_back("spectileCoefficients", kLayout);
   out.emplace_back("spectileQuantity", std::string(to_string(upsampler.quantity())));

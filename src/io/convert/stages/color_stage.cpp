@@ -3,6 +3,7 @@
 
 #include "src/color/color_matrix.hpp"
 #include "src/io/convert/sources/color_space.hpp"
+#include "src/upsampling/grid/color_grid.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile::io {
@@ -82,6 +83,16 @@ Result<Upsampler> upsampler_for(const MethodOptions& options) {
   out.observer = options.observer;
   out.nodes = options.nodes;
   return Upsampler::create(options.method, options.quantity, options.bands, out);
+}
+
+void note_nodes(const Upsampler& upsampler, std::vector<std::string>& notes) {
+  const auto& grid = UpsamplerAccess::grid(upsampler);
+  if (!grid || grid->grid.weakened == 0) return;
+  notes.push_back(
+      fmt::format("{} of {} nodes of tetrahedral have less of what was learned, or nothing: with all of it "
+                  "no spectrum has "
+                  "their colour",
+                  grid->grid.weakened, kNodes));
 }
 
 }  // namespace spectile::io

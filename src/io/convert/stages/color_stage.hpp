@@ -56,4 +56,7 @@ class ColorStage {
 /// The upsampler that the options ask for.
 Result<Upsampler> upsampler_for(const MethodOptions& options);
 
+/// Notes nodes that could not have all of what was learned of them.
+void note_nodes(const Upsampler& upsampler, std::vector<std::string>& notes);
+
 }  // namespace spectile::io

@@ -13,36 +13,7 @@ using io::Json;
 using io::Refused;
 
 constexpr std::size_t kMaxWavelengths = 4096;
-constexpr double kFirstNm = 100;
-constexpr double kLastNm = 10000;
-// The sigmoid of a tenth of it is 0 or 1 in float.
-constexpr double kMaxOffset = 1000;
 constexpr const char* kNodesAre = "the nodes";
-
-/// The first flaw of nodes, in words; empty for none.
-std::string flaw(const LearnedNodes& nodes) {
-  const std::size_t count = nodes.wavelengths_nm.size();
-  if (count == 0 || count > kMaxWavelengths)
-    return fmt::format("{} wavelengths are not from 1 to {}", count, kMaxWavelengths);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double nm = nodes.wavelengths_nm[i];
-    if (!(nm >= kFirstNm && nm <= kLastNm))
-      return fmt::format("a wavelength of {} nm is not from {} to {} nm", nm, kFirstNm, kLastNm);
-    if (i > 0 && !(nm > nodes.wavelengths_nm[i - 1])) {
-      return fmt::format("the wavelengths do not ascend: {} nm comes after {} nm", nm,
-                         nodes.wavelengths_nm[i - 1]);
-    }
-  }
-  if (nodes.offsets.size() != kNodes * count) {
-    return fmt::format("there are {} offsets, not {} for each of {} wavelengths", nodes.offsets.size(),
-                       kNodes, count);
-  }
-  for (const float offset : nodes.offsets) {
-    if (!(std::abs(static_cast<double>(offset)) <= kMaxOffset))
-      return fmt::format("an offset of {} is not from -{} to {}", offset, kMaxOffset, kMaxOffset);
-  }
-  return {};
-}
 
 std::string node_word(std::size_t node) {
   return fmt::format("\"offsets\" of node {}", node);
@@ -76,7 +47,7 @@ LearnedNodes nodes_from(const Json& json) {
     }
     for (const double v : values) out.offsets.push_back(static_cast<float>(v));
   }
-  if (const std::string what = flaw(out); !what.empty()) throw Refused(what);
+  if (const std::string what = nodes_flaw(out); !what.empty()) throw Refused(what);
   return out;
 }
 
@@ -93,8 +64,8 @@ std::string nodes_to_json(const LearnedNodes& nodes, bool one_line) {
               {"wavelengths_nm", nodes.wavelengths_nm},
               {"offsets", Json::array()}};
   const std::size_t count = nodes.wavelengths_nm.size();
-  for (std::size_t at = 0; at < nodes.offsets.size(); at += count)
-    out["offsets"].push_back(std::span(nodes.offsets).subspan(at, count));
+  for (std::size_t node = 0; node < kNodes && nodes_flaw(nodes).empty(); ++node)
+    out["offsets"].push_back(std::span(nodes.offsets).subspan(node * count, count));
   return io::json_text(out, one_line);
 }
 
@@ -108,7 +79,7 @@ Result<LearnedNodes> load_nodes(const std::string& path) {
 }
 
 Result<void> save_nodes(const LearnedNodes& nodes, const std::string& path) {
-  if (const std::string what = flaw(nodes); !what.empty())
+  if (const std::string what = nodes_flaw(nodes); !what.empty())
     return make_error(ErrorCode::kBadArgument, "{}: not written: {}", path, what);
   return write_text_file(path, nodes_to_json(nodes));
 }
