@@ -20,13 +20,13 @@ using testing::Not;
 class FitCommand : public testing::Test {
  protected:
   /// A table of `count` reflectances with a dip at 560 nm.
-  void write_table(const std::string& path, int count, double dip = 0.5) const {
+  void write_table(const std::string& path, int count, double dip = 0.5, double phase = 0) const {
     std::string table;
     for (int nm = 380; nm <= 780; nm += 10) {
       table += std::to_string(nm);
       for (int i = 0; i < count; ++i) {
         const double d = (nm - 560) / 20.0;
-        const double smooth = 0.5 + 0.35 * std::sin(nm * 0.009 + 0.7 * i);
+        const double smooth = 0.5 + 0.35 * std::sin(nm * 0.009 + 0.7 * i + phase);
         table += "," + std::to_string(smooth * (1 - dip * std::exp(-d * d)));
       }
       table += "\n";
@@ -48,7 +48,7 @@ class FitCommand : public testing::Test {
 
 TEST_F(FitCommand, WritesNodesAndTheirErrorsOnWhatTookNoPart) {
   write_table(folder_ / "paints.csv", 40);
-  write_table(folder_ / "cloth.csv", 15);
+  write_table(folder_ / "cloth.csv", 15, 0.5, 0.3);
   const auto outcome = run_tool({"fit", "--reflectances", folder_ / "paints.csv", "--reflectances",
                                  folder_ / "cloth.csv", "-o", nodes_});
   ASSERT_EQ(outcome.exit, 0) << outcome;
