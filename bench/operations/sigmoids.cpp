@@ -1,4 +1,6 @@
 // Sigmoid spectra: searched for, and evaluated in each of the forms that images and renderers need.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

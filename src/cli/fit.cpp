@@ -10,6 +10,7 @@
 #include "src/cli/options/method_options.hpp"
 #include "src/cli/output/files.hpp"
 #include "src/cli/output/print.hpp"
+#include "src/cli/output/progress.hpp"
 
 namespace spectile::cli {
 namespace {

@@ -34,7 +34,7 @@ inline double exp2_double(double t) {
 /// log2 of a positive normal double.
 inline double log2_double(double v) {
   const auto bits = std::bit_cast<std::uint64_t>(v);
-  double m = std::bit_cast<double>((bits & kernels::kMantissaMask) | kernels::kOneBits);
+  auto m = std::bit_cast<double>((bits & kernels::kMantissaMask) | kernels::kOneBits);
   double e = std::bit_cast<double>((bits >> 52) | kernels::kTwo52Bits) - kernels::kTwo52PlusBias;
   if (m > kernels::kSqrt2) {
     m = m * 0.5;

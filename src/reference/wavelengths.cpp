@@ -19,7 +19,8 @@ float value_at(const EvenTable& table, float lambda) {
   if (!(t >= 0.0F && t <= static_cast<float>(table.intervals))) return 0;
   const std::int32_t i = std::min(static_cast<std::int32_t>(t), table.intervals - 1);
   const float part = t - static_cast<float>(i);
-  return table.pairs[2 * i] + part * table.pairs[2 * i + 1];
+  const float* const pair = table.pairs + std::ptrdiff_t{2} * i;
+  return pair[0] + part * pair[1];
 }
 
 float value_at(const KnotTable& table, float lambda) {
@@ -33,7 +34,8 @@ float value_at(const KnotTable& table, float lambda) {
   for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
     if (table.knots[knot + step] <= held) knot += step;
   }
-  return table.pairs[2 * knot] + (held - table.knots[knot]) * table.pairs[2 * knot + 1];
+  const float* const pair = table.pairs + std::ptrdiff_t{2} * knot;
+  return pair[0] + (held - table.knots[knot]) * pair[1];
 }
 
 /// The k-th of the numbers that one random number stands for.

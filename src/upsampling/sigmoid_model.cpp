@@ -153,7 +153,7 @@ bool fill_nodes(const SigmoidSums& sums, bool quadratic, const Triple& luminance
     for (std::size_t at = kCells; at-- > 0;) {
       const std::size_t i = at / kSteps % kSteps;
       const std::size_t j = at % kSteps;
-      const Triple q = {centre(at / (kSteps * kSteps), kSteps), centre(i, kSteps), centre(j, kSteps)};
+      const Triple q = {centre(at / kSteps / kSteps, kSteps), centre(i, kSteps), centre(j, kSteps)};
       float* const node = nodes + (most * kCells + at) * kSigmoidNode;
       const Triple rgb = sigmoid_node_rgb(most, q);
       Triple& c = found[at];
@@ -181,7 +181,8 @@ bool fill_nodes(const SigmoidSums& sums, bool quadratic, const Triple& luminance
 /// True if the cube's corners have coefficients that the fast search can find.
 bool has_corners(const SigmoidSums& sums, const Triple& luminance) {
   for (int corner = 1; corner < 7; ++corner) {
-    const Triple rgb = {corner % 2 * 1.0, corner / 2 % 2 * 1.0, corner / 4 * 1.0};
+    const auto bit = [corner](int k) { return static_cast<double>(corner >> k & 1); };
+    const Triple rgb = {bit(0), bit(1), bit(2)};
     Triple c{};
     if (!sums.find(rgb, luminance, c)) return false;
     if (std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) > static_cast<double>(kernels::kSigmoidSteep)) {

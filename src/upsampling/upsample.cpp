@@ -74,11 +74,14 @@ Result<void> run(const Upsampler& upsampler, const ColorView& in, const float* m
 
 }  // namespace
 
+// Spans go by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
                            StoreHint hint, const Execution& execution) {
   return run(upsampler, rgb, nullptr, spectra, hint, execution);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
                           StoreHint hint, const Execution& execution) {
   const std::array<float, 9> matrix = color::to_float(xyz_to_srgb_matrix());

@@ -1,6 +1,8 @@
 // ColorStage: from an image's samples to the RGB of a method, with every check on the way.
 #include "src/io/convert/stages/color_stage.hpp"
 
+#include <fmt/format.h>
+
 #include "src/color/color_matrix.hpp"
 #include "src/io/convert/sources/color_space.hpp"
 #include "src/upsampling/grid/color_grid.hpp"
