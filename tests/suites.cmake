@@ -1,6 +1,7 @@
 # Read by ctest: an entry for each suite of a program without its slow tests, and one for each of its slow tests. One
 # process a suite instead of one a test: most tests take less time than a process takes to start.
-# Takes: program, name, label, slow_list (a file: one test's full name a line), results (a folder for counts).
+# Takes: program, name, label, slow_list (a file: one test's full name a line), results (a folder for counts), slowness (a
+# factor of the time limits).
 cmake_policy(VERSION 3.25)  # ctest sets none
 if(NOT EXISTS "${program}")
   add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
@@ -14,7 +15,8 @@ file(STRINGS "${slow_list}" slow_tests REGEX "^[^#]")
 macro(spectile_add_entry entry filter labels timeout)
   string(REPLACE "/" "_" file "${entry}")
   add_test(${entry} "${program}" "--gtest_filter=${filter}" "--gtest_output=xml:${results}/${file}.xml")
-  set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout})
+  math(EXPR seconds "${timeout} * ${slowness}")
+  set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT ${seconds})
 endmacro()
 # Ends the suite that was read: its entry leaves out the slow tests, and is left out where all are slow.
 macro(spectile_end_suite)
