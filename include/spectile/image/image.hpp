@@ -129,9 +129,9 @@ struct MethodOptions : ImageOptions {
   NegativeInput negative = NegativeInput::kGamut;
   std::optional<GamutPolicy> out_of_gamut;  ///< kClip where none, but kKeep where negative ones are kept
   /// Of the input, where it has alpha. It matters to methods whose spectrum of half a colour is not half of
-  /// its spectrum, the sigmoid's reflectances: their premultiplied spectra are alpha times the spectra of the
-  /// straight colours. Colours of alpha 0, and of 1 and more, are made into spectra as they are.
-  /// Nothing: premultiplied, which is noted where it matters.
+  /// its spectrum, reflectances by the sigmoids and tetrahedral: their premultiplied spectra are alpha times
+  /// the spectra of the straight colours. Colours of alpha 0, and of 1 and more, are made into spectra as
+  /// they are. Nothing: premultiplied, which is noted where it matters.
   std::optional<AlphaMeaning> alpha = {};
   AlphaMeaning alpha_meaning() const noexcept { return alpha.value_or(AlphaMeaning::kPremultiplied); }
 };
@@ -163,7 +163,7 @@ enum class ColorTarget { kSrgb, kXyz, kLuminance };
 
 /// Computation of relight_image().
 enum class RelightMode {
-  kDirect,   ///< without spectra: a table of 3 x 7 for mixtures of bases, sums in registers for the sigmoid
+  kDirect,  ///< without spectra: a table of 3 x 7 or 3 x 125 for mixtures, sums in registers for the sigmoids
   kSpectra,  ///< spectrum by spectrum, to check the direct one
 };
 
@@ -244,8 +244,8 @@ Result<ImageReport> project_image(const std::string& input, const std::string& o
                                   const ProjectImageOptions& options = {});
 
 /// Turns a texture into its colour under another light, as if it were upsampled and projected under that; its
-/// alpha and other channels pass through. Direct ways give the bits of the long one for the sigmoid, and come
-/// within Relighter::bound() of it for mixtures of bases. Colours of alpha 0 are kept (Masking::kNone).
+/// alpha and other channels pass through. Direct ways give the bits of the long one for the sigmoids, and
+/// come within Relighter::bound() of it for mixtures of bases. Colours of alpha 0 are kept (Masking::kNone).
 /// Errors: kBadArgument too, for light as quantity.
 Result<ImageReport> relight_image(const std::string& input, const std::string& output,
                                   const RelightImageOptions& options);

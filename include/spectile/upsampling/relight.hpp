@@ -27,7 +27,7 @@ class Relighter {
   const Matrix3& matrix() const noexcept { return matrix_; }
   /// Largest distance of a component from upsample_srgb(), project() and transform() in turn, over the
   /// largest component of the RGB, for RGB without negative components: rounding, and for smits and smits1999
-  /// the samples below 0 that those clamp. 0 for the sigmoid, whose bits are the same.
+  /// the samples below 0 that those clamp. 0 for the sigmoids, whose bits are the same.
   const std::array<double, 3>& bound() const noexcept { return bound_; }
 
  private:

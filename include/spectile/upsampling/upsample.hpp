@@ -92,7 +92,8 @@ struct GridModel;
 /// Hanika, A Low-Dimensional Function Space for Efficient Spectral Upsampling, Computer Graphics Forum 38(2),
 /// 2019. `sigmoid-observer` is our own: their sigmoid of other functions, the first order of the spectra with
 /// the least slope of Burns, Numerical methods for smoothest reflectance reconstruction, Color Research and
-/// Application 45(1), 2020.
+/// Application 45(1), 2020. `tetrahedral` is our own too: Smits's decomposition on a grid of those, by the
+/// partition of Kuhn, Some Combinatorial Lemmas in Topology, IBM J. Research and Development 4(5), 1960.
 class Upsampler {
  public:
   /// Errors: kOutOfMemory; kBadArgument for options that the method, or its nodes, are not made for, and
@@ -135,9 +136,9 @@ class Upsampler {
 
 /// Treatment of colours that a method cannot make, once they are in its RGB.
 enum class GamutPolicy {
-  kClip,   ///< moved to the nearest colour that it can make of the same luminance and dominant wavelength
-  kKeep,   ///< kept, as are the samples below 0 that they make: basis spectra are extrapolated linearly, the
-           ///< sigmoid takes the coefficients of the colour that they would be clipped to
+  kClip,  ///< moved to the nearest colour that it can make of the same luminance and dominant wavelength
+  kKeep,  ///< kept, as are the samples below 0 that they make: basis spectra and nodes are extrapolated
+          ///< linearly, sigmoids take the coefficients of the colour that they would be clipped to
   kError,  ///< an error that names the first of them and their number
 };
 
@@ -147,18 +148,18 @@ struct GamutReport {
   std::int64_t first = -1;    ///< the first of them
 };
 
-/// Makes a batch of RGB one that the upsampler can make. For the methods that mix basis spectra these are the
-/// colours without a component below 0 (above 1 they go on linearly); for the sigmoid as a reflectance those
+/// Makes a batch of RGB one that the upsampler can make. For the methods whose coefficients are the RGB these
+/// are the colours without a component below 0 (above 1 they go on); for the sigmoids as a reflectance those
 /// that some sigmoid has, which is more than the cube of sRGB. Black, white and greys are always inside.
-/// Colours outside keep their luminance (limited to 0 to 1 for the sigmoid's reflectances) and their dominant
+/// Colours outside keep their luminance (limited to 0 to 1 for the sigmoids' reflectances) and their dominant
 /// wavelength. What has a component that is not finite stays as it is and does not count. Shapes: rgb three
 /// times [lanes]. Errors: kBadArgument for samples not aligned, and for colours outside with
 /// GamutPolicy::kError, which leaves the batch as it is.
 Result<GamutReport> gamut_clip(const Upsampler& upsampler, ColorSpan rgb,
                                GamutPolicy policy = GamutPolicy::kClip, const Execution& execution = {});
 
-/// Coefficients of a method: three for every lane, and a scale for the sigmoid's unbounded ones and lights.
-/// For methods that mix basis spectra they are the RGB itself. upsample_srgb() is coefficients() and
+/// Coefficients of a method: three for every lane, and a scale for the sigmoids' unbounded ones and lights.
+/// For the other methods they are the RGB itself. upsample_srgb() is coefficients() and
 /// expand().
 struct CoefficientLanes {
   ColorLanes c;
