@@ -22,10 +22,10 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
     : stage_(stage),
       upsampler_(upsampler),
       kernels_(kernels),
-      mixes_(rows::stores_rgb(upsampler)),
+      stores_rgb_(rows::stores_rgb(upsampler)),
       skip_(skip),
       scaled_(scaled) {
-  if (mixes_ || !skip) return;
+  if (stores_rgb_ || !skip) return;
   table_ = std::make_unique<rows::ColorTable>(kernels, upsampler, stage.out_of_gamut(), pixels);
   alignas(64) float rows[4][kLanesPerBlock] = {};
   std::uint64_t unsolved = 0;
@@ -38,10 +38,10 @@ LineSolver::LineSolver(const ColorStage& stage, const Upsampler& upsampler,
 Result<LineSolver::Work> LineSolver::work(int width) const {
   Work work;
   const std::size_t padded = blocks_for(static_cast<std::size_t>(width)) * kLanesPerBlock;
-  if (scaled_ || !mixes_) {
+  if (scaled_ || !stores_rgb_) {
     SPECTILE_ASSIGN(work.scale, FloatBuffer::create(padded));
   }
-  if (mixes_) return work;
+  if (stores_rgb_) return work;
   SPECTILE_ASSIGN(work.coefficients, ColorLine::create(width));
   work.unsolved.resize(padded / kLanesPerBlock);
   work.outside.resize(padded);
@@ -58,13 +58,13 @@ LineCoefficients LineSolver::line(Work& work, const ColorLine& rgb, std::size_t 
     whole(work, rgb, width, line, may_be_outside, stats);
   } else {
     // Methods whose coefficients are the RGB clip a line quicker than its colours can be looked up.
-    if (mixes_ && may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
+    if (stores_rgb_ && may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
     const FoundRuns found = find_runs(rgb.rows, scaled_ ? work.scale.data() : nullptr, width, work.runs);
     stats.black += found.black;
     stats.constant += found.constant;
-    if (!mixes_) by_runs(work, rgb, width, line, stats);
+    if (!stores_rgb_) by_runs(work, rgb, width, line, stats);
   }
-  if (mixes_) return {{rgb.rows[0], rgb.rows[1], rgb.rows[2]}, scaled_ ? work.scale.data() : nullptr};
+  if (stores_rgb_) return {{rgb.rows[0], rgb.rows[1], rgb.rows[2]}, scaled_ ? work.scale.data() : nullptr};
   const rows::Coefficients out = at(work, 0);
   return {{out.c[0], out.c[1], out.c[2]}, scaled_ ? work.scale.data() : out.scale};
 }
@@ -78,7 +78,8 @@ rows::Coefficients LineSolver::at(Work& work, std::size_t first) const {
 void LineSolver::whole(Work& work, const ColorLine& rgb, std::size_t width, int line, bool may_be_outside,
                        LineStats& stats) const {
   if (may_be_outside) stage_.clip_to_gamut(line, rgb, width, stats);
-  if (!mixes_) rows::solve(kernels_, upsampler_, rgb.rows, at(work, 0), work.unsolved.data(), rgb.padded);
+  if (!stores_rgb_)
+    rows::solve(kernels_, upsampler_, rgb.rows, at(work, 0), work.unsolved.data(), rgb.padded);
 }
 
 void LineSolver::by_runs(Work& work, const ColorLine& rgb, std::size_t width, int line,

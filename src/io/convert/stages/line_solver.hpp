@@ -50,7 +50,7 @@ class LineSolver {
   const ColorStage& stage_;
   const Upsampler& upsampler_;
   const kernels::KernelTable& kernels_;
-  bool mixes_ = false;
+  bool stores_rgb_ = false;
   bool skip_ = false;
   bool scaled_ = false;
   std::unique_ptr<rows::ColorTable> table_;  // null for methods whose coefficients are the RGB
