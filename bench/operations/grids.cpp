@@ -9,6 +9,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "bench/operations/operation.hpp"
+#include "src/upsampling/grid/nodes.hpp"
 #include "src/upsampling/method_rows.hpp"
 
 namespace spectile::measure {
@@ -25,36 +26,8 @@ constexpr double kBound = 11;  // u
 constexpr const char* kLoads =
     "loads: for each vector of samples four of nodes, one to be transposed, and weights and places a pixel";
 
-/// Weights of a colour's four nodes, in double, and where the nodes lie.
-struct Nodes {
-  double weight[4];
-  std::size_t at[4];  ///< in floats from the first
-};
-
-Nodes find_nodes(const GridTable& table, const double* rgb) {
-  const double most = std::max({rgb[0], rgb[1], rgb[2]});
-  const double size = (table.homogeneous ? 0.0 : 1.0) < most ? most : 1.0;
-  const auto count = static_cast<std::size_t>(table.count);
-  std::array<std::pair<double, std::size_t>, 3> part;  // and the step along that component
-  Nodes out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double v = rgb[k] / size;
-    const auto level = [&](std::size_t i) { return static_cast<double>(table.levels[i]); };
-    std::size_t cell = 0;
-    while (cell + 2 < count && v >= level(cell + 1)) ++cell;
-    const std::size_t step = table.stride * (k == 0 ? count * count : k == 1 ? count : 1);
-    part[k] = {(v - level(cell)) / (level(cell + 1) - level(cell)), step};
-    out.at[0] += cell * step;
-  }
-  std::sort(part.begin(), part.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  double left = 1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.weight[k] = (left - part[k].first) * size;
-    out.at[k + 1] = out.at[k] + part[k].second;
-    left = part[k].first;
-  }
-  out.weight[3] = left * size;
-  return out;
+std::array<double, 3> rgb3(const double* rgb) {
+  return {rgb[0], rgb[1], rgb[2]};
 }
 
 /// `rows` samples of each node, limited from below: `bound` u of the sum of the weights' magnitudes times the
@@ -63,34 +36,32 @@ std::function<double(const double*, const double*, double)> grid_error(
     const std::shared_ptr<const void>& owner, const GridTable& table, std::size_t rows, double lowest,
     double bound) {
   double largest = 0;
-  const auto count = static_cast<std::size_t>(table.count);
-  const std::size_t nodes = count * count * count;
-  for (std::size_t i = 0; i < nodes * table.stride; ++i)
+  for (std::size_t i = 0; i < kNodes * table.stride; ++i)
     largest = std::max(largest, std::abs(static_cast<double>(table.nodes[i])));
   // Three parts, each times up to 8; eight products.
   const double roundings = (3 * 8 + 8) * std::max(1.0, largest);
-  return error_against(rows, roundings, false, bound,
-                       [=](const double* rgb, double* reference, double* scale) {
-                         static_cast<void>(owner);
-                         if (!finite3(rgb)) {
-                           // NaN stays NaN; infinities go through by the kernel's own order, which the
-                           // reference's bits tell.
-                           const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-                           std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-                           std::fill_n(scale, rows, std::numeric_limits<double>::max());
-                           return;
-                         }
-                         const Nodes found = find_nodes(table, rgb);
-                         double sum = 0;
-                         for (const double w : found.weight) sum += std::abs(w);
-                         for (std::size_t row = 0; row < rows; ++row) {
-                           double v = 0;
-                           for (std::size_t i = 0; i < 4; ++i)
-                             v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
-                           reference[row] = std::max(v, lowest);
-                           scale[row] = sum * largest;
-                         }
-                       });
+  return error_against(
+      rows, roundings, false, bound, [=](const double* rgb, double* reference, double* scale) {
+        static_cast<void>(owner);
+        if (!finite3(rgb)) {
+          // NaN stays NaN; infinities go through by the kernel's own order, which the
+          // reference's bits tell.
+          const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
+          std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+          std::fill_n(scale, rows, std::numeric_limits<double>::max());
+          return;
+        }
+        const NodeMixture found = node_mixture(rgb3(rgb), table.homogeneous);
+        double sum = 0;
+        for (const double w : found.weight) sum += std::abs(w);
+        for (std::size_t row = 0; row < rows; ++row) {
+          double v = 0;
+          for (std::size_t i = 0; i < 4; ++i)
+            v += found.weight[i] * static_cast<double>(table.nodes[found.node[i] * table.stride + row]);
+          reference[row] = std::max(v, lowest);
+          scale[row] = sum * largest;
+        }
+      });
 }
 
 void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler) {
@@ -130,7 +101,7 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
   };
   halves.error = [=](const double* rgb, const double* out, double /*tiny*/) {
     if (!finite3(rgb)) return kOutOfDomain;
-    const Nodes found = find_nodes(table, rgb);
+    const NodeMixture found = node_mixture(rgb3(rgb), table.homogeneous);
     double magnitudes = 0;
     for (const double w : found.weight) magnitudes += std::abs(w);
     if (magnitudes > 1e37) return kOutOfDomain;
@@ -138,7 +109,7 @@ void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampl
     for (std::size_t row = 0; row < bands; ++row) {
       double v = 0;
       for (std::size_t i = 0; i < 4; ++i)
-        v += found.weight[i] * static_cast<double>(table.nodes[found.at[i] + row]);
+        v += found.weight[i] * static_cast<double>(table.nodes[found.node[i] * table.stride + row]);
       v = std::clamp(v, 0.0, static_cast<double>(kernels::kHalfMax));
       const double rounding = kBound * 0x1p-24 * magnitudes;
       if (!std::isfinite(out[row])) return kBeyond;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <spectile/image/nodes_file.hpp>
 
 #include "src/cli/commands.hpp"
@@ -33,15 +34,13 @@ struct Materials {
 /// Notes what is made up of a file's reflectances, or left out.
 void note_limits(const std::string& file, const std::vector<Spectrum>& spectra,
                  std::vector<std::string>& notes) {
-  constexpr double kFirstNm = 400;  // of what is learned
-  constexpr double kLastNm = 720;
   std::size_t held = 0;
   std::size_t limited = 0;
   for (const Spectrum& spectrum : spectra) {
     const auto* table = std::get_if<PiecewiseLinearSpectrum>(&spectrum.kind());
     if (table == nullptr) continue;
     const auto nm = table->wavelengths_nm();
-    held += nm.front() > kFirstNm || nm.back() < kLastNm ? 1 : 0;
+    held += nm.front() > kFirstLearnedNm || nm.back() < kLastLearnedNm ? 1 : 0;
     const auto [low, high] = std::ranges::minmax(table->values());
     limited += low < 0 || high > 1 ? 1 : 0;
   }
@@ -49,7 +48,7 @@ void note_limits(const std::string& file, const std::vector<Spectrum>& spectra,
     notes.push_back(fmt::format(
         "{}: {} of {} reflectances are not given from {} to {} nm; beyond their data the nearest value is "
         "taken, and learned",
-        file, held, spectra.size(), kFirstNm, kLastNm));
+        file, held, spectra.size(), kFirstLearnedNm, kLastLearnedNm));
   }
   if (limited > 0) {
     notes.push_back(fmt::format("{}: {} of {} reflectances have values below 0 or above 1, which are limited",
@@ -153,10 +152,9 @@ int run_fit(const FitArguments& a) {
   std::vector<NamedFile> read = named_files(a.reflectances, kReflectancesRole);
   read.push_back({a.white, "the reference white (--white)"});
   check_outputs({{a.output, kOutputRole}}, files_among(read));
-  for (std::size_t i = 0; i < a.reflectances.size(); ++i) {
-    if (std::find(a.reflectances.begin(), a.reflectances.begin() + static_cast<std::ptrdiff_t>(i),
-                  a.reflectances[i]) != a.reflectances.begin() + static_cast<std::ptrdiff_t>(i))
-      return complain_usage(fmt::format("--reflectances names {} twice", a.reflectances[i]));
+  std::set<std::string> named;
+  for (const std::string& file : a.reflectances) {
+    if (!named.insert(file).second) return complain_usage(fmt::format("--reflectances names {} twice", file));
   }
   catch_signals();
   LearningOptions options;

@@ -82,7 +82,7 @@ Result<void> Relighter::fold_grid() {
       10 + 2 + kernels::kSumRun + static_cast<double>(bands) / kernels::kSumRun + 1 + 4 + 10;
   for (std::size_t k = 0; k < 3; ++k) {
     double largest = 0;
-    for (std::size_t i = 0; i < model.grid.count(); ++i) {
+    for (std::size_t i = 0; i < kNodes; ++i) {
       double size = 0;
       for (std::size_t b = 0; b < bands; ++b) {
         double terms = 0;

@@ -54,10 +54,10 @@ TEST(Tetrahedral, EveryQuantityObserverAndLightReturns) {
 TEST(Tetrahedral, NodesAreTheSigmoidsOfTheObserver) {
   const Upsampler upsampler = tetrahedral();
   const ColorGrid& grid = UpsamplerAccess::grid(upsampler)->grid;
-  ASSERT_EQ(grid.count(), 125U);
+  ASSERT_EQ(grid.nodes.size(), 125U * 60U);
   std::vector<Rgb> colors;
-  for (std::size_t i = 0; i < grid.count(); ++i) {
-    const auto rgb = grid.color(i);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const auto rgb = node_color(i);
     colors.push_back({static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
   }
   const auto rgb = lanes_of(colors);
@@ -121,7 +121,7 @@ TEST(Tetrahedral, SpectraAreContinuousAcrossTheFacesOfCells) {
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<Rgb> below;
   std::vector<Rgb> above;
-  const std::vector<float>& levels = UpsamplerAccess::grid(upsampler)->grid.levels;
+  const auto levels = node_levels();
   for (int i = 0; i < 3000; ++i) {
     Rgb rgb = {unit(random), unit(random), unit(random)};
     const std::size_t k = random() % 3;

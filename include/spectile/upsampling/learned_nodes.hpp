@@ -17,6 +17,9 @@ namespace spectile {
 /// Levels of the nodes of Method::kTetrahedral along each component of RGB, ((k / 4)^1.5), and their number.
 std::span<const float> node_levels();
 inline constexpr std::size_t kNodes = 125;
+/// Wavelengths between which colours tell of a spectrum: those of learned offsets. Units: nm.
+inline constexpr double kFirstLearnedNm = 400;
+inline constexpr double kLastLearnedNm = 720;
 /// Reflectances that are learned from, at least.
 inline constexpr std::size_t kMinReflectances = 10;
 

@@ -10,8 +10,6 @@
 namespace spectile {
 namespace {
 
-constexpr std::size_t kLevels = 5;
-
 /// Offsets of a node at the centres of bands.
 std::vector<double> offsets_at(const LearnedNodes& nodes, std::size_t node, const Bands& bands) {
   const std::vector<double>& nm = nodes.wavelengths_nm;
@@ -62,59 +60,16 @@ bool fill_node(SigmoidSums& sums, const Triple& rgb, const Triple& luminance, st
 
 }  // namespace
 
-std::span<const float> node_levels() {
-  static const auto levels = [] {
-    std::array<float, kLevels> out{};
-    for (std::size_t k = 0; k < kLevels; ++k)
-      out[k] = static_cast<float>(std::pow(static_cast<double>(k) / (kLevels - 1), 1.5));
-    return out;
-  }();
-  return levels;
-}
-
-std::array<double, 3> ColorGrid::color(std::size_t i) const {
-  const std::size_t n = levels.size();
-  return {static_cast<double>(levels[i / (n * n)]), static_cast<double>(levels[i / n % n]),
-          static_cast<double>(levels[i % n])};
-}
-
-NodeMixture node_mixture(const ColorGrid& grid, const std::array<double, 3>& rgb, bool homogeneous) {
-  const std::size_t n = grid.levels.size();
-  const std::size_t steps[3] = {n * n, n, 1};
-  const double most = std::max({rgb[0], rgb[1], rgb[2]});
-  const double size = most > (homogeneous ? 0.0 : 1.0) ? most : 1.0;
-  std::array<std::pair<double, std::size_t>, 3> part;  // and the step along that component
-  NodeMixture out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double v = rgb[k] / size;
-    const auto level = [&](std::size_t i) { return static_cast<double>(grid.levels[i]); };
-    std::size_t cell = 0;
-    while (cell + 2 < n && v >= level(cell + 1)) ++cell;
-    part[k] = {(v - level(cell)) / (level(cell + 1) - level(cell)), steps[k]};
-    out.node[0] += cell * steps[k];
-  }
-  std::sort(part.begin(), part.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  double left = 1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.weight[k] = (left - part[k].first) * size;
-    out.node[k + 1] = out.node[k] + part[k].second;
-    left = part[k].first;
-  }
-  out.weight[3] = left * size;
-  return out;
-}
-
 Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Observer observer,
                                const LearnedNodes* nodes) {
   SigmoidSums sums(bands, space, SigmoidFunctions::of(observer));
   const Triple luminance = {space.rgb_to_xyz[3], space.rgb_to_xyz[4], space.rgb_to_xyz[5]};
   ColorGrid out;
-  out.levels.assign(node_levels().begin(), node_levels().end());
   out.places = bands.count();
-  out.nodes.resize(out.count() * out.places);
-  for (std::size_t i = 0; i < out.count(); ++i) {
+  out.nodes.resize(kNodes * out.places);
+  for (std::size_t i = 0; i < kNodes; ++i) {
     double* const samples = out.nodes.data() + i * out.places;
-    const Triple rgb = out.color(i);
+    const Triple rgb = node_color(i);
     bool weakened = false;
     if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) {
       std::fill_n(samples, out.places, rgb[0]);
@@ -137,9 +92,8 @@ Result<ColorGrid> sigmoid_grid(const Bands& bands, const WorkingSpace& space, Ob
 
 ColorGrid grid_at(const ColorGrid& grid, std::span<const GridPlaceAt> places) {
   ColorGrid out;
-  out.levels = grid.levels;
   out.places = places.size();
-  for (std::size_t i = 0; i < grid.count(); ++i) {
+  for (std::size_t i = 0; i < kNodes; ++i) {
     const std::span<const double> node = grid.node(i);
     for (const auto& [place, part] : places) {
       const double here = node[place];
@@ -153,20 +107,20 @@ namespace {
 
 Result<std::shared_ptr<GridModel>> model_of(ColorGrid grid, std::size_t stride) {
   const auto padded = [](std::size_t floats) { return (floats + 15) / 16 * 16; };
-  const std::size_t levels = grid.levels.size();
+  const std::size_t levels = node_levels().size();
   auto model = std::make_shared<GridModel>();
-  SPECTILE_ASSIGN(model->memory, FloatBuffer::create(padded(grid.count() * stride) + 2 * padded(levels)));
+  SPECTILE_ASSIGN(model->memory, FloatBuffer::create(padded(kNodes * stride) + 2 * padded(levels)));
   float* const nodes = model->memory.data();
-  float* const level = nodes + padded(grid.count() * stride);
+  float* const level = nodes + padded(kNodes * stride);
   float* const per_width = level + padded(levels);
   std::fill_n(nodes, model->memory.size(), 0.0F);
-  for (std::size_t i = 0; i < grid.count(); ++i) {
+  for (std::size_t i = 0; i < kNodes; ++i) {
     const std::span<const double> node = grid.node(i);
     for (std::size_t b = 0; b < grid.places; ++b) nodes[i * stride + b] = static_cast<float>(node[b]);
   }
   for (std::size_t k = 0; k < levels; ++k) {
-    level[k] = grid.levels[k];
-    if (k + 1 < levels) per_width[k] = 1.0F / (grid.levels[k + 1] - grid.levels[k]);
+    level[k] = node_levels()[k];
+    if (k + 1 < levels) per_width[k] = 1.0F / (node_levels()[k + 1] - node_levels()[k]);
   }
   model->table = {nodes, stride, grid.places, level, per_width, static_cast<std::int32_t>(levels),
                   0.0F,  false};
@@ -187,9 +141,8 @@ Result<std::shared_ptr<const GridModel>> grid_model(ColorGrid grid, float lowest
 Result<std::shared_ptr<const GridModel>> folded_grid(const GridModel& model,
                                                      std::span<const std::array<double, 3>> weights) {
   ColorGrid colors;
-  colors.levels = model.grid.levels;
   colors.places = 3;
-  for (std::size_t i = 0; i < model.grid.count(); ++i) {
+  for (std::size_t i = 0; i < kNodes; ++i) {
     const std::span<const double> node = model.grid.node(i);
     std::array<double, 3> sum{};
     for (std::size_t b = 0; b < weights.size(); ++b) {

@@ -7,31 +7,19 @@
 
 #include "kernels/abi.hpp"
 #include "src/color/working_space.hpp"
-#include "src/upsampling/grid/measured_colors.hpp"
+#include "src/upsampling/grid/nodes.hpp"
 
 namespace spectile {
 
-/// Levels of the nodes along each component, and their spectra. A node's spectrum has exactly its colour, so
-/// that every mixture of nodes has the mixture's.
+/// Spectra of the nodes. Each has exactly its node's colour, so that every mixture of nodes has the
+/// mixture's.
 struct ColorGrid {
-  std::vector<float> levels;  ///< ascending from 0 to 1
   std::size_t places = 0;     ///< bands, or wavelengths
   std::vector<double> nodes;  ///< [red][green][blue][places]
   std::size_t weakened = 0;   ///< nodes that could not have all of what was learned of them
 
-  std::size_t count() const noexcept { return levels.size() * levels.size() * levels.size(); }
   std::span<const double> node(std::size_t i) const { return {nodes.data() + i * places, places}; }
-  /// RGB of a node.
-  std::array<double, 3> color(std::size_t i) const;
 };
-
-/// Nodes of which a colour is a mixture, and their weights, in double.
-struct NodeMixture {
-  std::array<std::size_t, 4> node{};
-  std::array<double, 4> weight{};
-};
-/// `homogeneous` as in grid_model().
-NodeMixture node_mixture(const ColorGrid& grid, const std::array<double, 3>& rgb, bool homogeneous);
 
 /// A grid of the kernels, and the memory that it lies in.
 struct GridModel {

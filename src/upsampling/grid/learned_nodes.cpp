@@ -7,6 +7,7 @@
 #include "src/base/eigen.hpp"
 #include "src/base/out_of_memory.hpp"
 #include "src/upsampling/grid/measured_colors.hpp"
+#include "src/upsampling/grid/nodes.hpp"
 #include "src/upsampling/sigmoid_search.hpp"
 
 namespace spectile {
@@ -20,8 +21,8 @@ constexpr double kFirstNm = 380;
 constexpr double kStepNm = 5;
 constexpr Index kPlaces = 81;
 // Colours tell next to nothing of what lies outside: at its ends an observer sees a hundredth of its peak.
-constexpr Index kFirstKept = 4;  // 400 nm
-constexpr Index kKept = 65;      // up to 720 nm
+constexpr auto kFirstKept = static_cast<Index>((kFirstLearnedNm - kFirstNm) / kStepNm);
+constexpr auto kKept = static_cast<Index>((kLastLearnedNm - kFirstLearnedNm) / kStepNm) + 1;
 constexpr double kLeast = 0.006;
 // Chosen by learning from each of three published sets, and two of them, and evaluating on the others: means
 // of 1.12; from 0.3 to 0.8 and from a half to four times the noise they are up to 1.15.

@@ -13,9 +13,6 @@ Result<void> check_sizes(std::span<const ReflectanceSet> sets);
 /// learn_nodes() from at least one reflectance, for parts of sets. Throws: std::bad_alloc.
 Result<LearnedNodes> learn_from(std::span<const ReflectanceSet> sets, const LearningOptions& options);
 
-/// RGB of a node.
-std::array<double, 3> node_color(std::size_t node);
-
 /// From reflectances to RGB with the primaries of sRGB, over bands of 5 nm from 380 to 780 nm.
 class MeasuredColors {
  public:

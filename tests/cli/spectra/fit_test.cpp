@@ -15,7 +15,6 @@ namespace {
 
 using test::run_tool;
 using testing::HasSubstr;
-using testing::Not;
 
 class FitCommand : public testing::Test {
  protected:

@@ -27,10 +27,8 @@ namespace {
 
 constexpr double kUlp = 0x1p-24;  // half a unit in the last place of 1: the error of one rounding
 
-// Bound that coefficients() states for the RGB of a sigmoid's samples.
-constexpr double kSigmoidBound = 1e-6;
-// docs/accuracy.md, and rounding of the nodes.
-constexpr double kGridBound = 12 * kUlp;
+constexpr double kSigmoidBound = 1e-6;    // that coefficients() states for the RGB of samples
+constexpr double kGridBound = 12 * kUlp;  // docs/accuracy.md, and rounding of the nodes
 
 /// NaN of any kind are the same result; their payload is not specified.
 bool same_result(float a, float b) {
@@ -97,7 +95,7 @@ struct UpsamplingOracle {
  private:
   std::optional<double> of_mixture(const std::array<double, 3>& rgb, double scale,
                                    std::span<const float> samples) const {
-    const NodeMixture mixture = node_mixture(grid->grid, rgb, grid->table.homogeneous);
+    const NodeMixture mixture = node_mixture(rgb, grid->table.homogeneous);
     double size = 0;
     for (const double weight : mixture.weight) size += std::abs(scale * weight) * largest_basis;
     if (!(size > 0x1p-100) || !(size <= static_cast<double>(std::numeric_limits<float>::max()))) return {};
@@ -107,7 +105,8 @@ struct UpsamplingOracle {
       for (std::size_t i = 0; i < 4; ++i)
         sample += scale * mixture.weight[i] * grid->grid.node(mixture.node[i])[b];
       sample = std::max(sample, static_cast<double>(upsampler.lowest()));
-      most = std::max(most, std::abs(static_cast<double>(samples[b]) - sample) / size);
+      const double difference = std::abs(static_cast<double>(samples[b]) - sample) / size;
+      most = std::max(most, difference);
     }
     return most;
   }

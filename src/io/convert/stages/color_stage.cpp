@@ -91,9 +91,8 @@ void note_nodes(const Upsampler& upsampler, std::vector<std::string>& notes) {
   const auto& grid = UpsamplerAccess::grid(upsampler);
   if (!grid || grid->grid.weakened == 0) return;
   notes.push_back(
-      fmt::format("{} of {} nodes of tetrahedral have less of what was learned, or nothing: with all of it "
-                  "no spectrum has "
-                  "their colour",
+      fmt::format("{} of {} nodes of tetrahedral have less of what was learned, or nothing: with all "
+                  "of it no spectrum has their colour",
                   grid->grid.weakened, kNodes));
 }
 
