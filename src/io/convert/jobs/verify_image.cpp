@@ -106,7 +106,7 @@ struct UpsamplingOracle {
         sample += scale * mixture.weight[i] * grid->grid.node(mixture.node[i])[b];
       sample = std::max(sample, static_cast<double>(upsampler.lowest()));
       const double difference = std::abs(static_cast<double>(samples[b]) - sample) / size;
-      most = std::max(most, difference);
+      most = std::isnan(difference) ? INFINITY : std::max(most, difference);
     }
     return most;
   }
