@@ -73,7 +73,7 @@ void open_standard_descriptors() {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     spectile::cli::remove_empty_output_folder();
-    spectile::cli::print_error_verbatim(spectile::cli::kOutOfMemoryText);
+    spectile::cli::print_out_of_memory();
     std::_Exit(spectile::cli::kNoRoom);
   } catch (const std::exception& error) {
     spectile::cli::print_error("spectile: a fault of the tool itself: {}\n", error.what());
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    spectile::cli::print_error_verbatim(spectile::cli::kOutOfMemoryText);
+    spectile::cli::print_out_of_memory();
     return spectile::cli::kNoRoom;
   } catch (const std::filesystem::filesystem_error& error) {
     spectile::cli::print_error("spectile: {}\n", error.what());

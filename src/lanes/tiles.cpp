@@ -12,9 +12,12 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <spectile/threads.hpp>
 #include <vector>
 
@@ -52,24 +55,44 @@ class Workers {
   bool failed() const noexcept { return failed_; }
 
  private:
+  /// Memory that is full shows here, and not in the middle of oneTBB. Throws: std::bad_alloc.
+  static void make_room() {
+    // No new expression: a compiler may leave those out.
+    ::operator delete(::operator new(kRoomToStart));
+  }
+
+  /// Objects of oneTBB that exist while its workers are made.
+  struct Start {
+    std::optional<tbb::global_control> allowance;
+    std::vector<std::unique_ptr<tbb::task_arena>> arenas;
+  };
+
   /// Keeps every worker busy until the last one is there, so that none of them makes the next. Returns false
   /// where the system refuses one; ready_ then counts those that were made.
   bool grow(int threads) {
-    const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(threads));
+    make_room();
+    auto start = std::make_unique<Start>();
     const int round = begin_round();
-    std::vector<std::unique_ptr<tbb::task_arena>> arenas;
     int made = 1;
     bool refused = false;
     try {
+      start->allowance.emplace(tbb::global_control::max_allowed_parallelism,
+                               static_cast<std::size_t>(threads));
       for (; made < threads; ++made) {
-        arenas.push_back(std::make_unique<tbb::task_arena>(2, 1));
-        arenas.back()->enqueue([this, round] { wait_inside(round); });
+        start->arenas.push_back(std::make_unique<tbb::task_arena>(2, 1));
+        start->arenas.back()->enqueue([this, round] { wait_inside(round); });
         std::unique_lock lock(gate_);
         // Workers that are busy elsewhere in this process exist already.
         constexpr auto kLongest = std::chrono::milliseconds(100);
         if (!changed_.wait_for(lock, kLongest, [&] { return inside_ == made; })) break;
       }
+    } catch (const std::bad_alloc&) {
+      // Those that exist stay, and oneTBB is left alone from here: it waits forever for those it could not
+      // make, also in their destructors.
+      static_cast<void>(start.release());
+      ready_.store(1, std::memory_order_release);
+      begin_round();
+      return false;
     } catch (const std::exception&) {
       refused = true;
     }
@@ -95,6 +118,9 @@ class Workers {
     changed_.notify_all();
     changed_.wait(lock, [&] { return round_ != round; });
   }
+
+  static constexpr std::size_t kRoomToStart = 64
+                                              << 10;  // bytes; oneTBB 2021.8 takes 7 KiB for its first worker
 
   std::atomic<int> ready_ = 1;  // threads that calls can run on
   std::atomic<bool> failed_ = false;

@@ -47,6 +47,7 @@ bool fault_short = false;
 bool fault_persistent = false;
 unsigned long fault_call = 0;
 unsigned long calls[kKinds];
+unsigned long mallocs_at_thread = 0;
 unsigned long injected = 0;
 char first_file[4096];
 bool no_proc = false;
@@ -122,6 +123,7 @@ void note_file(const char* path, int descriptor) {
 bool fails(Kind kind, const char* path, int descriptor) {
   if (!active) return false;
   const unsigned long call = __atomic_add_fetch(&calls[kind], 1, __ATOMIC_RELAXED);
+  if (kind == kThread && call == 1) mallocs_at_thread = __atomic_load_n(&calls[kMalloc], __ATOMIC_RELAXED);
   if (kind != fault_kind || (fault_persistent ? call < fault_call : call != fault_call)) return false;
   if (__atomic_fetch_add(&injected, 1, __ATOMIC_RELAXED) == 0) note_file(path, descriptor);
   errno = fault_error;
@@ -186,6 +188,7 @@ __attribute__((destructor)) void write_report() {
   const int file = static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0666));
   if (file < 0) return;
   for (int kind = 0; kind < kKinds; ++kind) put_count(file, kNames[kind].name, calls[kind]);
+  put_count(file, "malloc_at_thread", mallocs_at_thread);
   put_count(file, "injected", injected);
   put(file, "file ");
   put(file, first_file);

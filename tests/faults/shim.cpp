@@ -3,7 +3,8 @@
 //   SPECTILE_FAULT=FUNCTION:N[:ERROR|:short][:persistent]   the N-th call from main on, or all from it on
 //   SPECTILE_FAULT_PROGRAM=NAME  only in a program of this name, not in a shell that starts it
 //   SPECTILE_FAULT_NO_PROC=1     there is no /proc
-//   SPECTILE_FAULT_REPORT=FILE   at exit: a line "FUNCTION CALLS" each, "injected COUNT", its file
+//   SPECTILE_FAULT_REPORT=FILE   at exit: a line "FUNCTION CALLS" each, the calls of malloc when the first
+//                                thread was made, "injected COUNT", its file
 // FUNCTION is a row of kNames, with its variants; malloc_linked: those between a thread's linkat and its next
 // rename. `short` does half of a read or a write. Nothing here allocates: it stands below malloc.
 #include <dlfcn.h>

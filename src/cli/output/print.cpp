@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <mutex>
 #include <system_error>
 
 namespace spectile::cli {
@@ -72,6 +73,14 @@ void print_verbatim(std::string_view text) {
 
 void print_error_verbatim(std::string_view text) noexcept {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+void print_out_of_memory() noexcept {
+  static std::mutex mutex;
+  static bool printed = false;
+  const std::scoped_lock lock(mutex);
+  if (!printed) print_error_verbatim("spectile: not enough memory\n");
+  printed = true;
 }
 
 }  // namespace spectile::cli

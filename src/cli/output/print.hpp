@@ -15,12 +15,13 @@ namespace spectile::cli {
 /// and bytes that are not UTF-8 become \n, \r, \t or \xNN.
 std::string escaped(std::string_view text);
 
-inline constexpr std::string_view kOutOfMemoryText = "spectile: not enough memory\n";
-
 /// Writes a text as it is. Throws: std::system_error where standard output is full or closed.
 void print_verbatim(std::string_view text);
 /// The same to stderr. What cannot be written there is lost: a diagnostic never ends a run.
 void print_error_verbatim(std::string_view text) noexcept;
+/// Prints to stderr that there is not enough memory: one line, however often and on however many threads it
+/// is found. On return the line is there.
+void print_out_of_memory() noexcept;
 
 /// An argument as it is printed: texts escaped, anything else as it is.
 template <class T>
@@ -53,7 +54,7 @@ void print_error(fmt::format_string<T...> format, const T&... arguments) noexcep
   try {
     print_error_verbatim(format_printable(fmt::string_view(format), arguments...));
   } catch (const std::exception&) {
-    print_error_verbatim(kOutOfMemoryText);
+    print_out_of_memory();
   }
 }
 
