@@ -4,7 +4,7 @@ import math
 import random
 import statistics
 
-from figure_tools import Image, color_errors, run, table, tool, write_image
+from figure_tools import Image, color_errors, line_plot, run, table, tool, write_image
 
 METHODS = ("smits", "smits1999", "smits-exact", "mallett", "sigmoid", "sigmoid-observer", "tetrahedral")
 
@@ -16,7 +16,7 @@ def grid(path, side):
     return path
 
 
-def methods(args):
+def tables(args):
     cube, spectra, back = grid(args.file("cube.exr"), args.side), args.file("spectra.exr"), args.file("back.exr")
     rows = []
     for method in METHODS:
@@ -50,7 +50,14 @@ def methods(args):
             row += [f"{100 - 100 * outside / args.gamut_side**3:.1f} %", f"{statistics.fmean(moved):.2f}, {max(moved):.1f}"]
         rows.append(row)
     print(table(["input space", *(word for m in ("smits-exact", "sigmoid", "sigmoid-observer") for word in (f"`{m}` covers", "costs"))], rows))
+
+
+def methods(args):
+    if not args.plot_only:
+        tables(args)
     measured(args, ("A", "FL2", "FL11", "LED-B3", "HP1"), ("60 even bands", "80 even bands to 780 nm"), [])
+    if args.plot_only:
+        return
     spectra = map(json.loads, run([args.tool, "spectra", "--json"])[0].splitlines())
     named = [spectrum["name"] for spectrum in spectra if spectrum["kind"] == "illuminant"]
     measured(args, named, ("60 even bands",), ["--quick"])
@@ -61,7 +68,10 @@ def measured(args, lights, lists, more):
     words = [args.tool, "bench", "--json", "--differences", "-q", "--cache-only", "--threads", 1, "--illuminant", ",".join(lights), *more]
     for file in args.reflectances:
         words += ["--reflectances", file]
-    of = {(w["light"], w["name"]): w["differences"] for w in json.loads(run(words)[0])["ways"]}
+    ways = json.loads(run(words)[0])["ways"]
+    of = {(w["light"], w["name"]): w["differences"] for w in ways}
+    if args.plot and len(lights) <= 5:
+        plot(args.plot, ways, lights, lists[0])
     count = len(of[lights[0], f"smits, {lists[0]}, fused"])
     draw = random.Random(1)
     drawn = [[draw.randrange(count) for _ in range(count)] for _ in range(1000)]
@@ -87,3 +97,27 @@ def measured(args, lights, lists, more):
                         + [f"{statistics.fmean(means[method]):.3f} ± {deviation(means[method]):.3f}", f"{max(map(max, row)):.1f}",
                            f"{statistics.fmean(difference):.3f} ± {deviation(difference):.3f}" if following else ""])
         print(table(["method", *(lights if len(lights) <= 5 else []), "mean of all", "max", "less the next"], rows))
+
+
+# Of others, on the reflectances and lights of docs/methods.md: their mean errors, from there. They were not timed.
+OTHERS = (("LHTSS (Burns 2020)", 1.216), ("Otsu et al. 2018", 1.464))
+
+
+def plot(path, ways, lights, bands):
+    """Error under other lights against the cost of a pixel, for spectra in memory and for relighting without them."""
+    panels = []
+    for title, kind in ((f"Through spectra in memory, {bands}", "spectra in float"), (f"Relighting, {bands}", "fused")):
+        lines = [("#606060", "2 3", [0.1, 100], [mean, mean], name) for name, mean in OTHERS]
+        for method in METHODS:
+            found = [w for w in ways if w["name"] == f"{method}, {bands}, {kind}"]
+            if not found:
+                continue
+            nanoseconds = statistics.median(w["nanoseconds"] for w in found)
+            mean = statistics.fmean(statistics.fmean(w["differences"]) for w in found)
+            largest = max(max(w["differences"]) for w in found)
+            color = "#d55e00" if method == "tetrahedral" else "#0072b2"
+            lines.append((color, "", [nanoseconds] * 2, [mean, largest], method))
+        panels.append((title, lines))
+    line_plot(path, f"Error under {len(lights)} other lights against cost, from RGB under D65", "nanoseconds a pixel, one thread",
+              "CIEDE2000, mean (named) and largest", (0.1, 100, 0.5, 20),
+              [("spectile's methods", "#0072b2", ""), ("the default", "#d55e00", ""), ("others' means, not timed", "#606060", "2 3")], panels)

@@ -84,7 +84,8 @@ LIGHTS = ("D65", "A", "FL2", "FL11", "HP1", "LED-B3", "LED-RGB1")
 
 
 def make_plan(args, lights, bands, sample, bounces=1, more=()):
-    """Cross-validated errors of a plan: (even bands or None, light, bounces) to errors; and its processor seconds."""
+    """Cross-validated errors of a plan: (even bands or None, light, bounces) to errors; and its processor seconds. Even bands
+    are as spectile projects them, or their averages multiplied where " multiplied" follows their name."""
     if args.chart is None:
         named = [json.loads(line) for line in run([args.tool, "spectra", "--json"])[0].splitlines()]
         args.chart = [s["name"] for s in named if s["kind"] == "reflectance"]
@@ -97,7 +98,8 @@ def make_plan(args, lights, bands, sample, bounces=1, more=()):
     text, _, seconds, _ = run(words)
     held_out = json.loads(text)["promise"]
     out = {}
-    for bands_text, of in [(None, held_out["illuminants"]), *held_out["even_bands"].items()]:
+    multiplied = [(name + " multiplied", of) for name, of in held_out["even_bands"].items()]
+    for bands_text, of in [(None, held_out["illuminants"]), *held_out["even_bands_projected"].items(), *multiplied]:
         for light, errors in of.items():
             for count, error in errors.items():
                 out[bands_text, light, int(count)] = error
@@ -118,6 +120,7 @@ def planning(args):
         for name, even in (("16 even, 400 to 700 nm", "400:700:18.75"), ("30 even, 400 to 700 nm", "400:700:10"),
                            ("60 even, 400 to 700 nm", "400:700:5"), ("80 even, 380 to 780 nm", "380:780:5")):
             add(name, sixteen[0], even)
+            add(name + ", averages multiplied", sixteen[0], even + " multiplied")
         for count in (8, 12):
             for sample in ("points", "bands"):
                 found, longest = {}, 0
@@ -148,7 +151,7 @@ def planning(args):
                                for key, line in lines.items() for part, dashes in (("mean", ""), ("maximum", "7 4"))]))
     line_plot(args.plot, "Colour error against number of bands, held-out reflectances", "bands",
               "CIEDE2000, mean (lines) and maximum (dashed)", (4, 100, 0.004, 40),
-              [("even bands, 400 to 700 nm", colors["even"], ""), ("planned wavelengths", colors["points"], ""),
+              [("even bands, 400 to 700 nm, as projected", colors["even"], ""), ("planned wavelengths", colors["points"], ""),
                ("planned bands", colors["bands"], "")], panels)
 
 
@@ -256,7 +259,7 @@ def main():
     for name, wanted in (("convergence", ["--plot"]), ("planning", ["--plot", "--plot-only", "--reflectances"]),
                          ("planned", ["--size", "--runs", "--bands", "--reflectances", "--exr"]),
                          ("skipping", ["--size", "--runs", "--exr"]), ("end-to-end", ["--size", "--runs", "--image", "--exr"]),
-                         ("compression", ["--runs"]), ("methods", ["--side", "--gamut-side", "--reflectances"])):
+                         ("compression", ["--runs"]), ("methods", ["--side", "--gamut-side", "--plot", "--plot-only", "--reflectances"])):
         command = commands.add_parser(name)
         command.add_argument("--tool", default="build/spectile", help="the spectile command (build/spectile)")
         command.add_argument("--threads", type=int, default=1 if name == "compression" else 2)

@@ -35,7 +35,7 @@ constexpr bool is_sigmoid(Method method) noexcept {
 }
 
 /// The method where none is asked for. See docs/methods.md for the table by which it was chosen.
-inline constexpr Method kDefaultMethod = Method::kSmitsExact;
+inline constexpr Method kDefaultMethod = Method::kTetrahedral;
 
 /// The physical quantity of the spectra.
 enum class Quantity {
