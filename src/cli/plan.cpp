@@ -14,8 +14,10 @@
 namespace spectile::cli {
 namespace {
 
-constexpr Choice<BandSampling> kSamplings[] = {{"bands", BandSampling::kAverages},
-                                               {"points", BandSampling::kPoints}};
+enum class Samples { kBands, kApart, kPoints };
+
+constexpr Choice<Samples> kSamples[] = {
+    {"bands", Samples::kBands}, {"apart", Samples::kApart}, {"points", Samples::kPoints}};
 
 struct PlanArguments {
   Common common;
@@ -28,7 +30,7 @@ struct PlanArguments {
   ChannelArguments channels;
   NonFinite nonfinite = NonFinite::kStop;
   int bounces = 1;
-  BandSampling sample = BandSampling::kAverages;
+  Samples sample = Samples::kBands;
   std::optional<std::size_t> count;
   std::optional<double> max_error;
   Observer observer = Observer::kCie1931;
@@ -148,7 +150,9 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
     print("\n");
     for (const EvenBandsError& even : plan.report.even_bands) {
       if (even.light != e.light || even.bounces != e.bounces) continue;
-      print("  {:<40}", "  even bands " + even.bands);
+      const bool projected = even.sums == EvenBandsSums::kAsProjected;
+      print("  {:<40}", projected ? "  even bands " + even.bands + ", as projected"
+                                  : "    " + even.bands + ", averages multiplied");
       print_errors(even.error);
       print("\n");
     }
@@ -168,7 +172,8 @@ int run_plan(const PlanArguments& a) {
   Scene scene;
   PlannerOptions& o = scene.options;
   o.bounces = a.bounces;
-  o.sampling = a.sample;
+  o.sampling = a.sample == Samples::kPoints ? BandSampling::kPoints : BandSampling::kAverages;
+  o.apart = a.sample == Samples::kApart;
   o.bands = a.count;
   o.max_error = a.max_error;
   o.observer = a.observer;
@@ -233,8 +238,9 @@ void add_plan(const Command& app, int& exit) {
   command.option("--bands", a->count, "N", kBandsGroup, "").range(3, 64).hidden();
   command.option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
                  "Instead: the smallest number that meets this maximum error");
-  command.choice("--sample", a->sample, kSamplings, kBandsGroup,
-                 "bands (averages, as upsample writes), or points (values at wavelengths)");
+  command.choice(
+      "--sample", a->sample, kSamples, kBandsGroup,
+      "bands (averages; they may overlap), apart (that do not), or points (values at wavelengths)");
   command
       .option("--folds", a->folds, "N", kBandsGroup,
               "Folds of the cross-validation; 0: none, which is quicker")

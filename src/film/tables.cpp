@@ -25,6 +25,12 @@ Result<void> make_film_buckets(FilmAccess::State& s) {
         "{} wavelengths, which a film fed with bands takes",
         s.options.bands.count());
   }
+  if (s.options.bands.overlap()) {
+    return make_error(
+        ErrorCode::kBadArgument,
+        "a film fed with wavelengths divides them among its bands, and the plan's bands overlap; "
+        "make one with --sample apart");
+  }
   std::vector<float> edges;
   for (const Band& band : s.options.bands.list()) {
     const auto lower = static_cast<float>(band.lower_nm);

@@ -55,42 +55,63 @@ Result<ColorError> plan_error(const Plan& plan, const NamedLight& light,
                                      plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
 }
 
-Result<ColorError> even_bands_error(const Bands& bands, const NamedLight& light,
-                                    const std::vector<Spectrum>& reflectances, int bounces,
-                                    Observer observer) {
-  SPECTILE_ASSIGN(const auto integrals, plan::integrals(light, observer));
+namespace {
+
+/// Averages of light and matching functions over each band, apart. Shapes: sensor [bands][3], emission
+/// [bands][1].
+Result<void> add_averages(Parameters& parameters, const NamedLight& light, Observer observer) {
   SPECTILE_ASSIGN(const auto equal_energy, named_light(light.name, ConstantSpectrum(1)));
   SPECTILE_ASSIGN(const auto curves, plan::integrals(equal_energy, observer));
-  // Averages over each band of reflectances, light and curves apart, as sampled spectra are multiplied.
-  const auto count = static_cast<Eigen::Index>(bands.count());
-  plan::Vector centres(count);
-  plan::Vector halves(count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    const Band& band = bands[static_cast<std::size_t>(b)];
-    centres[b] = (band.lower_nm + band.upper_nm) / 2;
-    halves[b] = band.width_nm() / 2;
-  }
   Matrix emitted(kGrid, 1);
   const PiecewiseLinearSpectrum spectrum(light.spectrum);
   for (Eigen::Index g = 0; g < kGrid; ++g) {
     emitted(g, 0) = spectrum(plan::kFirstNm + static_cast<double>(g));
   }
+  const auto averages = [&parameters](Matrix spectra) -> Matrix {
+    return plan::sample_values(plan::sample_set(std::move(spectra)), parameters.lambda, parameters.half)
+        .transpose();
+  };
+  parameters.sensor = averages(curves);
+  parameters.emission = averages(std::move(emitted));
+  return {};
+}
+
+}  // namespace
+
+Result<ColorError> even_bands_error(const Bands& bands, const NamedLight& light,
+                                    const std::vector<Spectrum>& reflectances, int bounces,
+                                    EvenBandsSums sums, Observer observer) {
+  SPECTILE_ASSIGN(const auto integrals, plan::integrals(light, observer));
+  const auto count = static_cast<Eigen::Index>(bands.count());
   Parameters parameters;
-  parameters.lambda = centres;
-  parameters.half = halves;
-  parameters.sensor = plan::sample_values(plan::sample_set(curves), centres, halves).transpose();
-  parameters.emission =
-      plan::sample_values(plan::sample_set(std::move(emitted)), centres, halves).transpose();
-  parameters.emission.col(0) = parameters.emission.col(0).cwiseProduct(2 * halves);
-  const double sum = parameters.emission.col(0).dot(parameters.sensor.col(1));
-  if (!(sum > 0)) {
-    return make_error(ErrorCode::kBadArgument, "the light {} has no luminance in these bands", light.name);
+  parameters.lambda.resize(count);
+  parameters.half.resize(count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const Band& band = bands[static_cast<std::size_t>(b)];
+    parameters.lambda[b] = (band.lower_nm + band.upper_nm) / 2;
+    parameters.half[b] = band.width_nm() / 2;
   }
-  parameters.sensor /= sum;
+  const bool projected = sums == EvenBandsSums::kAsProjected;
+  if (projected) {
+    parameters.sensor =
+        plan::sample_values(plan::sample_set(integrals), parameters.lambda, parameters.half).transpose();
+    parameters.emission = Matrix::Ones(count, 1);
+  } else {
+    SPECTILE_TRY(add_averages(parameters, light, observer));
+  }
+  parameters.emission.col(0) = parameters.emission.col(0).cwiseProduct(2 * parameters.half);
+  Eigen::Vector3d white = parameters.sensor.transpose() * parameters.emission.col(0);
+  if (!(white.minCoeff() > 0)) {
+    return make_error(ErrorCode::kBadArgument, "the light {} has no X, Y or Z in these bands", light.name);
+  }
+  parameters.sensor /= white[1];
+  white /= white[1];
   SPECTILE_ASSIGN(auto table, plan::tabulate(reflectances));
   const SampleSet samples = evaluation_samples(std::move(table), bounces, kEvaluationProducts);
-  return summarize(plan::differences(plan::reference_xyz(samples, integrals),
-                                     plan::predict(samples, parameters, 0), plan::white_xyz(integrals)));
+  const Matrix reference = plan::reference_xyz(samples, integrals);
+  const Matrix got = plan::predict(samples, parameters, 0);
+  const Eigen::Vector3d light_white = plan::white_xyz(integrals);
+  return summarize(plan::differences(reference, got, light_white, projected ? white : light_white));
 }
 
 }  // namespace spectile

@@ -12,6 +12,7 @@ constexpr double kLowestNm = 385;
 constexpr double kHighestNm = 725;
 constexpr double kApartNm = 2;
 constexpr double kNarrowestNm = 2;
+constexpr double kWidestNm = 120;
 /// Longest step of a wavelength or width.
 constexpr double kLongestNm = 6;
 
@@ -35,7 +36,8 @@ class Fit {
  public:
   Fit(const Problem& p, const InitialGuess& guess)
       : equations_(p, static_cast<Eigen::Index>(guess.wavelengths_nm.size()), guess.half_nm > 0),
-        check_(&p.check) {
+        check_(&p.check),
+        apart_(p.apart) {
     now_.lambda = Eigen::Map<const Vector>(guess.wavelengths_nm.data(), equations_.layout().k);
     now_.half = Vector::Constant(now_.lambda.size(), guess.half_nm);
     keep_apart(now_);
@@ -65,7 +67,7 @@ class Fit {
   }
 
  private:
-  /// Bands that overlap divide the distance between their centres.
+  /// Where bands are to be apart, those that overlap divide the distance between their centres.
   void keep_apart(Parameters& n) const {
     const bool bands = equations_.layout().bands;
     for (Eigen::Index k = 0; k < n.lambda.size(); ++k) {
@@ -75,8 +77,9 @@ class Fit {
     }
     if (!bands) return;
     for (Eigen::Index k = 0; k < n.half.size(); ++k) {
-      n.half[k] = std::clamp(n.half[k], kNarrowestNm / 2, 60.0);
+      n.half[k] = std::clamp(n.half[k], kNarrowestNm / 2, kWidestNm / 2);
     }
+    if (!apart_) return;
     for (Eigen::Index k = 1; k < n.half.size(); ++k) {
       const double room = n.lambda[k] - n.lambda[k - 1];
       const double taken = n.half[k] + n.half[k - 1];
@@ -157,6 +160,7 @@ class Fit {
 
   Equations equations_;
   const std::function<void()>* check_;  // the problem's
+  bool apart_;                          // its bands
   Parameters now_;
 };
 

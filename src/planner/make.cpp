@@ -79,8 +79,8 @@ std::vector<plan::InitialGuess> initial_guesses(plan::Problem& problem, const Pl
   // Widths that bands begin with, relative to an even division of 300 nm.
   const double even_nm = 300 / static_cast<double>(count);
   const bool bands = o.sampling == BandSampling::kAverages;
-  const auto halves =
-      bands ? std::vector<double>{0.25 * even_nm, 0.4 * even_nm, 0.1 * even_nm} : std::vector<double>{0};
+  std::vector<double> halves = {0};
+  if (bands) halves = {0.25 * even_nm, 0.4 * even_nm, (o.apart ? 0.1 : 0.8) * even_nm};
   for (int i = 0; problem.pool.count() > 0 && i < kFirstPlans; ++i) {
     plan::add_worst_products(problem,
                              {plan::choose_wavelengths(problem, count, halves[0], 1, kExchanges), halves[0]});
@@ -109,6 +109,7 @@ std::vector<plan::InitialGuess> initial_guesses(plan::Problem& problem, const Pl
 Parameters fitted(const Matrix& reflectances, const PlannerOptions& o, const std::vector<Matrix>& integrals,
                   std::size_t count) {
   plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
+  problem.apart = o.apart;
   problem.check = [&o] {
     if (o.go_on && !o.go_on()) throw plan::Stopped{};
   };
@@ -160,15 +161,17 @@ double largest(const HeldOutErrors& held_out) {
 Result<void> compare_even(Plan& plan, const PlannerOptions& o) {
   if (o.folds == 0) return {};
   const auto same = fmt::format("400:700:{}", 300.0 / static_cast<double>(plan.count()));
-  for (const std::string& text :
-       {same, std::string("400:700:10"), std::string("400:700:5"), std::string("380:780:5")}) {
-    SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
-    for (const NamedLight& light : o.lights) {
-      for (int b = 1; b <= o.bounces; ++b) {
-        const auto error = even_bands_error(bands, light, o.reflectances, b, o.observer);
-        // A light that is all beyond these bands; there is nothing to compare with.
-        if (!error) continue;
-        plan.report.even_bands.push_back({text, light.name, b, *error});
+  for (const EvenBandsSums sums : {EvenBandsSums::kAsProjected, EvenBandsSums::kAveragesMultiplied}) {
+    for (const std::string& text :
+         {same, std::string("400:700:10"), std::string("400:700:5"), std::string("380:780:5")}) {
+      SPECTILE_ASSIGN(const auto bands, Bands::parse(text));
+      for (const NamedLight& light : o.lights) {
+        for (int b = 1; b <= o.bounces; ++b) {
+          const auto error = even_bands_error(bands, light, o.reflectances, b, sums, o.observer);
+          // A light that is all beyond these bands; there is nothing to compare with.
+          if (!error) continue;
+          plan.report.even_bands.push_back({sums, text, light.name, b, *error});
+        }
       }
     }
   }

@@ -31,7 +31,7 @@ Result<Bands> planned_bands(const Plan& plan) {
                       plan.count(), plan.bands.size());
   }
   SPECTILE_ASSIGN(const auto bands,
-                  points ? Bands::from_centres(plan.wavelengths_nm) : Bands::from_list(plan.bands));
+                  points ? Bands::from_centres(plan.wavelengths_nm) : Bands::from_overlapping(plan.bands));
   return bands.with_weights(plan.weights, points ? BandSampling::kPoints : BandSampling::kAverages,
                             std::make_shared<const PlanReport>(plan.report));
 }

@@ -131,11 +131,12 @@ std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& w
   return out;
 }
 
-std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white) {
+std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white,
+                                const Eigen::Vector3d& got_white) {
   std::vector<double> out;
   for (Eigen::Index i = 0; i < reference.cols(); ++i) {
     const double d = ciede2000(xyz_to_lab(triple(reference.col(i)), triple(white)),
-                               xyz_to_lab(triple(got.col(i)), triple(white)));
+                               xyz_to_lab(triple(got.col(i)), triple(got_white)));
     // NaN must not pass for a small difference.
     out.push_back(std::isnan(d) ? std::numeric_limits<double>::infinity() : d);
   }

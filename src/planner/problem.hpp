@@ -74,8 +74,13 @@ Eigen::Vector3d white_xyz(const Matrix& integrals);
 /// The CIEDE2000 metric at colours: for small differences d in XYZ, |metric * d| is the colour difference.
 /// Shapes: xyz [3][colours]; one 3 x 3 for each.
 std::vector<Eigen::Matrix3d> metrics(const Matrix& xyz, const Eigen::Vector3d& white);
-/// Colour differences between columns of XYZ. Shapes: [3][colours].
-std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white);
+/// Colour differences between columns of XYZ, each seen in its white. Shapes: [3][colours].
+std::vector<double> differences(const Matrix& reference, const Matrix& got, const Eigen::Vector3d& white,
+                                const Eigen::Vector3d& got_white);
+inline std::vector<double> differences(const Matrix& reference, const Matrix& got,
+                                       const Eigen::Vector3d& white) {
+  return differences(reference, got, white, white);
+}
 
 /// Products that an error is evaluated over.
 inline constexpr std::size_t kEvaluationProducts = 2000;
@@ -95,6 +100,7 @@ struct Problem {
   Vector sample_weights;               ///< [N], of squared differences
   SampleSet pool;                      ///< products that may be added; none for one bounce
   std::vector<Matrix> pool_reference;  ///< a light: [3][products]
+  bool apart = true;                   ///< bands do not overlap
   /// Called some times a second. Throws: Stopped, where the work is not wanted any more.
   std::function<void()> check = [] {};
 };

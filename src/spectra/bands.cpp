@@ -54,21 +54,49 @@ Result<Bands> Bands::uniform(double first_nm, double last_nm, double step_nm) {
   return from_list(uniform_list(first_nm, step_nm, static_cast<std::size_t>(whole)));
 }
 
-Result<Bands> Bands::from_list(std::vector<Band> bands) {
-  if (bands.empty() || bands.size() > kMaxBands) {
-    return make_error(ErrorCode::kBadArgument, "{} bands: there must be 1 to {}", bands.size(), kMaxBands);
+namespace {
+
+/// Errors: those of from_list(), or of from_overlapping().
+Result<void> check_list(const std::vector<Band>& bands, bool may_overlap) {
+  if (bands.empty() || bands.size() > Bands::kMaxBands) {
+    return make_error(ErrorCode::kBadArgument, "{} bands: there must be 1 to {}", bands.size(),
+                      Bands::kMaxBands);
   }
-  double last = 0;
+  double last_upper = 0;
+  double last_centre = 0;
   for (const Band& band : bands) {
-    const bool ordered = band.lower_nm < band.centre_nm && band.centre_nm < band.upper_nm;
-    if (!ordered || !std::isfinite(band.upper_nm) || !(band.lower_nm >= last)) {
-      return make_error(ErrorCode::kBadArgument,
-                        "band [{}, {}] nm around {} nm: bands must be positive, ascending and not overlap",
-                        band.lower_nm, band.upper_nm, band.centre_nm);
+    const bool ordered = band.lower_nm >= 0 && band.lower_nm < band.centre_nm &&
+                         band.centre_nm < band.upper_nm && std::isfinite(band.upper_nm);
+    if (!ordered || !(band.centre_nm > last_centre) || !(may_overlap || band.lower_nm >= last_upper)) {
+      return make_error(ErrorCode::kBadArgument, "band [{}, {}] nm around {} nm: bands must be positive{}",
+                        band.lower_nm, band.upper_nm, band.centre_nm,
+                        may_overlap ? " and their centres ascending" : ", ascending and not overlap");
     }
-    last = band.upper_nm;
+    last_upper = band.upper_nm;
+    last_centre = band.centre_nm;
   }
+  return {};
+}
+
+}  // namespace
+
+Result<Bands> Bands::from_list(std::vector<Band> bands) {
+  SPECTILE_TRY(check_list(bands, false));
   return Bands(std::move(bands));
+}
+
+Result<Bands> Bands::from_overlapping(std::vector<Band> bands) {
+  SPECTILE_TRY(check_list(bands, true));
+  return Bands(std::move(bands));
+}
+
+bool Bands::overlap() const noexcept {
+  double last = 0;
+  for (const Band& band : *bands_) {
+    if (band.lower_nm < last) return true;
+    last = std::max(last, band.upper_nm);
+  }
+  return false;
 }
 
 Result<Bands> Bands::from_centres(std::span<const double> centres_nm) {

@@ -37,6 +37,31 @@ TEST(Bands, RejectsWhatIsNotARange) {
   EXPECT_FALSE(Bands::uniform(400, 700, 0.01));
 }
 
+TEST(Bands, ThoseOfPlansMayOverlap) {
+  const std::vector<Band> list = {{400, 420, 440}, {390, 430, 500}, {450, 460, 470}};
+  EXPECT_FALSE(Bands::from_list(list));
+  const auto bands = Bands::from_overlapping(list);
+  ASSERT_TRUE(bands) << bands.error().message;
+  EXPECT_TRUE(bands->overlap());
+  // The third is within the second.
+  EXPECT_TRUE(Bands::from_overlapping({list[1], list[2]})->overlap());
+  EXPECT_FALSE(Bands::from_overlapping({list[0], list[2]})->overlap());
+  EXPECT_FALSE(Bands().overlap());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const std::vector<Band>& wrong : std::vector<std::vector<Band>>{
+           {},
+           {{400, 420, 440}, {390, 420, 500}},
+           {{400, 420, 440}, {390, 410, 500}},
+           {{400, 400, 440}},
+           {{440, 420, 400}},
+           {{-1, 420, 440}},
+           {{400, 420, kInfinity}},
+           {{std::nan(""), 420, 440}},
+           {{400, std::nan(""), 440}}}) {
+    EXPECT_FALSE(Bands::from_overlapping(wrong));
+  }
+}
+
 TEST(Bands, CentresGetEdgesHalfwayBetween) {
   const auto bands = Bands::from_centres(std::vector<double>{400, 410, 440});
   ASSERT_TRUE(bands);

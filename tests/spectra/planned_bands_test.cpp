@@ -67,7 +67,7 @@ TEST_P(PlannedBands, EqualThoseOfTheSameWeightsOnly) {
   other.weights.lights[0].spectrum = plan_.weights.lights[0].spectrum.scaled(0.3);
   other.report.errors = {{"D65", 1, {}}};
   EXPECT_EQ(*planned_bands(other), bands_) << "scale and report do not count";
-  EXPECT_FALSE(*Bands::from_list({bands_.list().begin(), bands_.list().end()}) == bands_);
+  EXPECT_FALSE(*Bands::from_overlapping({bands_.list().begin(), bands_.list().end()}) == bands_);
 }
 
 TEST_P(PlannedBands, GiveTheirPlanBack) {
@@ -214,6 +214,22 @@ TEST(PlannedBandsOfPoints, AreNoBucketsForWavelengths) {
   const auto film = Film::create(o);
   ASSERT_FALSE(film);
   EXPECT_THAT(film.error().message, HasSubstr("values at 12 wavelengths"));
+}
+
+TEST(PlannedBandsThatOverlap, AreNoBucketsForWavelengths) {
+  const Bands bands = *planned_bands(averages());
+  ASSERT_TRUE(bands.overlap());
+  FilmOptions o;
+  o.width = o.height = 1;
+  o.input = FilmInput::kWavelengths;
+  o.spectral = true;
+  o.bands = bands;
+  const auto film = Film::create(o);
+  ASSERT_FALSE(film);
+  EXPECT_THAT(film.error().message, HasSubstr("bands overlap"));
+  // Samples on the bands need no dividing.
+  o.input = FilmInput::kBands;
+  EXPECT_TRUE(Film::create(o));
 }
 
 TEST(PlannedBandsOfBrokenPlans, AreRefused) {

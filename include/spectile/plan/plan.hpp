@@ -24,15 +24,27 @@ struct CrossValidatedError {
   ColorError error;
 };
 
+/// How samples over even bands become a colour.
+enum class EvenBandsSums {
+  /// Weights are integrals of light times matching function over each band, as Projector and
+  /// `spectile project` have them, and colours are seen in the white of these bands.
+  kAsProjected,
+  /// Light and matching functions are sampled spectra too, averaged over each band and multiplied, as the
+  /// book Physically Based Rendering does it; colours are seen in the light's own white.
+  kAveragesMultiplied,
+};
+
 /// The same of even bands, for comparison.
 struct EvenBandsError {
+  EvenBandsSums sums = EvenBandsSums::kAsProjected;
   std::string bands;  ///< as Bands::parse() takes them
   std::string light;
   int bounces = 1;
   ColorError error;
 };
 
-/// Errors of a plan, beside those of even bands of about as many, and of more.
+/// Errors of a plan, beside those of even bands of about as many, and of more: of all as projected, then of
+/// all with averages multiplied.
 struct PlanReport {
   std::vector<CrossValidatedError> errors;
   std::vector<EvenBandsError> even_bands;
@@ -66,8 +78,8 @@ struct PlannerOptions {
   std::vector<NamedLight> lights;  ///< 0 beyond their tables' ends
   /// Reflectances of the scene, constant beyond their ends; outside -0.1 to 2 they are an error.
   std::vector<Spectrum> reflectances;
-  BandSampling sampling =
-      BandSampling::kPoints;         ///< averages have a half to a quarter of the error, for one bounce
+  BandSampling sampling = BandSampling::kPoints;  ///< averages have a fraction of the error, for one bounce
+  bool apart = false;                ///< bands that do not overlap, which films fed with wavelengths take
   int bounces = 1;                   ///< products of up to so many reflectances, 1 to 4
   std::optional<std::size_t> bands;  ///< number of wavelengths, 3 to 64
   std::optional<double>
@@ -96,9 +108,11 @@ Result<Plan> make_plan(const PlannerOptions& options);
 Result<ColorError> plan_error(const Plan& plan, const NamedLight& light,
                               const std::vector<Spectrum>& reflectances, int bounces);
 
-/// The same for even bands, reflectance and light averaged over each as sampled spectra are.
+/// The same for even bands, over which reflectances are averaged. Errors: kBadArgument for a light
+/// whose white has no X, Y or Z in these bands.
 Result<ColorError> even_bands_error(const Bands& bands, const NamedLight& light,
                                     const std::vector<Spectrum>& reflectances, int bounces,
+                                    EvenBandsSums sums = EvenBandsSums::kAsProjected,
                                     Observer observer = Observer::kCie1931);
 
 }  // namespace spectile

@@ -29,7 +29,7 @@ struct Band {
   friend bool operator==(const Band&, const Band&) = default;
 };
 
-/// An immutable list of bands in ascending order that do not overlap; cheap to copy.
+/// An immutable list of bands in ascending order; cheap to copy. Those of plans may overlap, no others do.
 /// A sampled spectrum's value in a band is the average of the spectrum over the band.
 class Bands {
  public:
@@ -45,6 +45,11 @@ class Bands {
   /// Any list of bands, in ascending order, gaps allowed.
   /// Errors: kBadArgument for an empty list, more than kMaxBands, unordered or overlapping bands.
   static Result<Bands> from_list(std::vector<Band> bands);
+
+  /// The same, but bands may overlap: only their centres ascend. For averages that are weighed together, as
+  /// those of a plan; what divides the spectrum among bands refuses them.
+  /// Errors: kBadArgument for an empty list, more than kMaxBands, or unordered bands.
+  static Result<Bands> from_overlapping(std::vector<Band> bands);
 
   /// Bands around given centres: edges halfway between neighbours, the outer ones symmetric.
   /// A single centre gets a band of 1 nm.
@@ -74,6 +79,8 @@ class Bands {
   const PlanReport* report() const noexcept;
   /// True if samples are values at the centres, as some plans' are, and not averages.
   bool are_points() const noexcept;
+  /// True if a wavelength is in two of them.
+  bool overlap() const noexcept;
 
   /// "400:700:5", or for other lists the count and the range: "36 bands from 375 to 735 nm".
   std::string description() const;

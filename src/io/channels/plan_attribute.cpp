@@ -16,6 +16,9 @@ void add_plan_attribute(TextAttributes& texts, const Bands& bands) {
 
 Result<Bands> with_plan(const PartHeader& header, const Bands& bands, const std::string& path) {
   const auto text = header.text(kPlanAttribute);
+  if (!text && bands.overlap()) {
+    return make_error(ErrorCode::kBadFile, "{}: its bands overlap, without a plan that weighs them", path);
+  }
   if (!text) return bands;
   SPECTILE_ASSIGN(const auto plan, parse_plan(*text, path + ": attribute " + kPlanAttribute));
   auto planned = planned_bands(plan);

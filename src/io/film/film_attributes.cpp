@@ -208,7 +208,7 @@ Result<FilmDescription> film_of(const PartHeader& header, const std::string& pat
   for (std::size_t i = 0; edges && i + 2 < edges->size(); i += 3) {
     list.push_back({(*edges)[i], (*edges)[i + 1], (*edges)[i + 2]});
   }
-  const auto bands = Bands::from_list(std::move(list));
+  const auto bands = Bands::from_overlapping(std::move(list));
   if (bands && edges->size() % 3 == 0) {
     SPECTILE_ASSIGN(o.bands, with_plan(header, *bands, path));
   } else {

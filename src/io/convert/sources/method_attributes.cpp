@@ -124,7 +124,7 @@ Result<Upsampler> upsampler_of(const PartHeader& header, const std::string& path
   // The default bands keep their own identity, for which tables are at hand.
   const Bands usual;
   const bool is_usual = std::equal(list.begin(), list.end(), usual.list().begin(), usual.list().end());
-  const auto stored = is_usual ? Result<Bands>(usual) : Bands::from_list(std::move(list));
+  const auto stored = is_usual ? Result<Bands>(usual) : Bands::from_overlapping(std::move(list));
   if (!stored) return damaged(path, "spectileBands");
   SPECTILE_ASSIGN(const auto bands, with_plan(header, *stored, path));
   UpsamplerOptions options;

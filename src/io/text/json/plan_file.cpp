@@ -43,7 +43,7 @@ std::string plan_flaw(const Plan& plan) {
                            plan.wavelengths_nm[k]);
       }
     }
-    if (const auto bands = Bands::from_list(plan.bands); !bands) return bands.error().message;
+    if (const auto bands = Bands::from_overlapping(plan.bands); !bands) return bands.error().message;
   }
   if (plan.weights.sensor.size() != count) {
     return fmt::format("the sensor has {} weights for {} wavelengths", plan.weights.sensor.size(), count);

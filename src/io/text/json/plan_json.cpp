@@ -35,13 +35,17 @@ Json to_json(const BandLight& light) {
   return out;
 }
 
+const char* key_of(EvenBandsSums sums) {
+  return sums == EvenBandsSums::kAsProjected ? "even_bands_projected" : "even_bands";
+}
+
 Json to_json(const PlanReport& report) {
   Json out = {{"measure", kMeasure}, {"illuminants", Json::object()}};
   for (const CrossValidatedError& e : report.errors) {
     out["illuminants"][e.light][std::to_string(e.bounces)] = to_json(e.error);
   }
   for (const EvenBandsError& e : report.even_bands) {
-    out["even_bands"][e.bands][e.light][std::to_string(e.bounces)] = to_json(e.error);
+    out[key_of(e.sums)][e.bands][e.light][std::to_string(e.bounces)] = to_json(e.error);
   }
   return out;
 }
@@ -133,12 +137,13 @@ Plan plan_from(const Json& json) {
   if (promise->contains("illuminants")) {
     plan.report.errors = errors_from((*promise)["illuminants"], "the promise");
   }
-  if (promise->contains("even_bands")) {
-    const Json& even = (*promise)["even_bands"];
-    if (!even.is_object()) throw Refused("\"even_bands\" is no object");
-    for (const auto& [bands, errors] : even.items()) {
+  for (const EvenBandsSums sums : {EvenBandsSums::kAsProjected, EvenBandsSums::kAveragesMultiplied}) {
+    const auto even = promise->find(key_of(sums));
+    if (even == promise->end()) continue;
+    if (!even->is_object()) throw Refused(fmt::format("\"{}\" is no object", key_of(sums)));
+    for (const auto& [bands, errors] : even->items()) {
       for (auto& e : errors_from(errors, "the promise of even bands")) {
-        plan.report.even_bands.push_back({bands, std::move(e.light), e.bounces, e.error});
+        plan.report.even_bands.push_back({sums, bands, std::move(e.light), e.bounces, e.error});
       }
     }
   }

@@ -65,6 +65,7 @@ void expect_same(const Plan& a, const Plan& b) {
   for (std::size_t i = 0; i < a.report.errors.size(); ++i) same(a.report.errors[i], b.report.errors[i]);
   ASSERT_EQ(a.report.even_bands.size(), b.report.even_bands.size());
   for (std::size_t i = 0; i < a.report.even_bands.size(); ++i) {
+    EXPECT_EQ(a.report.even_bands[i].sums, b.report.even_bands[i].sums);
     EXPECT_EQ(a.report.even_bands[i].bands, b.report.even_bands[i].bands);
     same(a.report.even_bands[i], b.report.even_bands[i]);
   }
@@ -83,9 +84,11 @@ Plan odd_plan() {
                          {{"A", lamp}, {0.1, 0.2, 0.3, 1e300}},  // not the published one of that name
                          {{"a \"lamp\", \xC3\xA9t\xC3\xA9\n", lamp}, {0, -1, 2, 3}}};
   plan.report.errors = {{"D65", 1, {0.1, 0.2, 1.0 / 3}}, {"D65", 2, {1, 2, 3}}, {"A", 1, {0, 0, 0}}};
-  plan.report.even_bands = {{"400:700:5", "D65", 1, {0.3, 0.4, 0.5}},
-                            {"400:700:5", "A", 2, {0.6, 0.7, 0.8}},
-                            {"380:780:10", "D65", 1, {1e-9, 1, 2}}};
+  constexpr auto kMultiplied = EvenBandsSums::kAveragesMultiplied;
+  plan.report.even_bands = {{EvenBandsSums::kAsProjected, "400:700:5", "A", 1, {0.2, 0.3, 0.4}},
+                            {kMultiplied, "400:700:5", "D65", 1, {0.3, 0.4, 0.5}},
+                            {kMultiplied, "400:700:5", "A", 2, {0.6, 0.7, 0.8}},
+                            {kMultiplied, "380:780:10", "D65", 1, {1e-9, 1, 2}}};
   return plan;
 }
 
@@ -217,6 +220,7 @@ TEST(PlanFile, RefusesPromisesThatCannotBe) {
   expect_refused(with(R"({"illuminants": {"D65": {"2": )" + error + R"(, "2.0": )" + error + "}}}"),
                  "\"D65\" is given twice for 2 bounces");
   expect_refused(with(R"({"even_bands": {"400:700:5": []}})"), "is no object");
+  expect_refused(with(R"({"even_bands_projected": []})"), "\"even_bands_projected\" is no object");
 }
 
 TEST(PlanFile, RefusesTextBuiltToUseUpMemoryOrTime) {
