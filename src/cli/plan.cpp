@@ -238,9 +238,8 @@ void add_plan(const Command& app, int& exit) {
   command.option("--bands", a->count, "N", kBandsGroup, "").range(3, 64).hidden();
   command.option("--max-error", a->max_error, "CIEDE2000", kBandsGroup,
                  "Instead: the smallest number that meets this maximum error");
-  command.choice(
-      "--sample", a->sample, kSamples, kBandsGroup,
-      "bands (averages; they may overlap), apart (that do not), or points (values at wavelengths)");
+  command.choice("--sample", a->sample, kSamples, kBandsGroup,
+                 "bands (averages that may overlap), apart, or points (values at wavelengths)");
   command
       .option("--folds", a->folds, "N", kBandsGroup,
               "Folds of the cross-validation; 0: none, which is quicker")

@@ -102,6 +102,7 @@ TEST_P(Regions, HaveThePixelsOfTheWholeConversion) {
   write(in_, picture, GetParam());
   UpsampleImageOptions upsample;
   upsample.input_space = RgbSpace();  // stated, so that there is nothing to note
+  upsample.alpha = AlphaMeaning::kIgnored;
   ASSERT_TRUE(upsample_image(in_, all_, upsample));
   for (const Region& region : regions()) {
     for (const int threads : {1, 3}) {
