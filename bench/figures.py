@@ -150,7 +150,7 @@ def planning(args):
         panels.append((light, [(colors[key], dashes, [n for n, _ in line], [e[part] for _, e in line])
                                for key, line in lines.items() for part, dashes in (("mean", ""), ("maximum", "7 4"))]))
     line_plot(args.plot, "Colour error against number of bands, held-out reflectances", "bands",
-              "CIEDE2000, mean (lines) and maximum (dashed)", (4, 100, 0.004, 40),
+              "CIEDE2000, mean (lines) and maximum (dashed)", (4, 100, 0.001, 40),
               [("even bands, 400 to 700 nm, as projected", colors["even"], ""), ("planned wavelengths", colors["points"], ""),
                ("planned bands", colors["bands"], "")], panels)
 

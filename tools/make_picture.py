@@ -18,6 +18,10 @@ def pixel(x, y):
     return json.loads(text)
 
 
+info = json.loads(subprocess.check_output([tool, "info", f"{demo}/chart-spectral.exr", "--json"]))
+method = info["attributes"]["spectileMethod"]
+
+
 def curve(values, top):
     n = len(values)
     points = [(LEFT + PW * (i + 0.5) / n, TOP + PH * (1 - v / top)) for i, v in enumerate(values)]
@@ -44,7 +48,7 @@ for value in (0, 0.5, 1):
 for nm in (400, 500, 600, 700):
     text += ["-draw", f"text {LEFT + PW * (nm - 400) / 300 - 12},{TOP + PH + 20} '{nm}'"]
 text += ["-draw", f"text 20,{TOP + 290} 'RGB texture'",
-         "-draw", f"text {LEFT + 30},{TOP + 290} 'spectra of its corners by smits-exact (nm)'",
+         "-draw", f"text {LEFT + 30},{TOP + 290} 'spectra of its corners by {method} (nm)'",
          "-draw", f"text {LEFT + PW + 50},{TOP + 290} 'projected back under D65'"]
 scale = ["-resize", "375x250", "-colorspace", "sRGB"]
 subprocess.check_call(
