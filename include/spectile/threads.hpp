@@ -8,7 +8,7 @@ namespace spectile {
 /// and stay, so that memory taken later cannot be what they lack; calls that need more make them themselves.
 int available_threads(int requested);
 
-/// True where the system has refused to make a thread.
+/// True where the system has refused to make a thread, or memory ended while one was made.
 bool threads_refused() noexcept;
 
 }  // namespace spectile

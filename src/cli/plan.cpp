@@ -142,16 +142,16 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
     print("  no cross-validated error, as there was no cross-validation\n");
     return;
   }
-  print("  {:<40} {:>7} {:>7} {:>7}\n", "CIEDE2000, cross-validated", "mean", "95 %", "maximum");
+  print("  {:<54} {:>7} {:>7} {:>7}\n", "CIEDE2000, cross-validated", "mean", "95 %", "maximum");
   for (const CrossValidatedError& e : plan.report.errors) {
     const std::string bounces = plural(static_cast<std::uint64_t>(e.bounces), "bounce");
-    print("  {:<40}", fmt::format("under {}, {}", e.light, bounces));
+    print("  {:<54}", fmt::format("under {}, {}", e.light, bounces));
     print_errors(e.error);
     print("\n");
     for (const EvenBandsError& even : plan.report.even_bands) {
       if (even.light != e.light || even.bounces != e.bounces) continue;
       const bool projected = even.sums == EvenBandsSums::kAsProjected;
-      print("  {:<40}", projected ? "  even bands " + even.bands + ", as projected"
+      print("  {:<54}", projected ? "  even bands " + even.bands + ", as projected"
                                   : "    " + even.bands + ", averages multiplied");
       print_errors(even.error);
       print("\n");

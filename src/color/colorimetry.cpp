@@ -33,8 +33,8 @@ std::array<MeasuredSpectrum, 3> matching_functions(Observer observer) {
           matching_function(table, table.z_bar)};
 }
 
-/// Share of a white's tint that is taken out: all where no component of its sRGB is more than kNear off 1, none from kFar
-/// on, and evenly less in between, so that no small change of the bands makes a step.
+/// Share of a white's tint that is taken out: all where no component of its sRGB is more than kNear off 1,
+/// none from kFar on, and evenly less in between, so that no small change of the bands makes a step.
 double compensated_share(const std::array<double, 3>& white) {
   constexpr double kNear = 0.1;
   constexpr double kFar = 0.3;
@@ -50,6 +50,13 @@ Matrix3 white_keeping_srgb(const std::array<double, 3>& white, double share) {
   std::array<double, 3> kept = chromaticity_to_xyz(kRec709.white);
   for (std::size_t k = 0; k < 3; ++k) kept[k] += share * (white[k] - kept[k]);
   return inverse(rgb_to_xyz(kRec709, kept));
+}
+
+/// Errors: kBadArgument for bands that overlap, whose integrals would count light twice.
+Result<void> check_apart(const Bands& bands) {
+  if (!bands.overlap()) return {};
+  return make_error(ErrorCode::kBadArgument, "{} overlap, and have no plan that weighs them",
+                    bands.description());
 }
 
 /// Weights of planned bands: their sensor, times the emission of a light where there is one.
@@ -91,6 +98,7 @@ Result<Projector> Projector::of_observer(const Bands& bands, const MeasuredSpect
     }
     SPECTILE_ASSIGN(weights, planned_weights(*bands.weights(), light, observer));
   }
+  if (bands.weights() == nullptr) SPECTILE_TRY(check_apart(bands));
   double luminance = 0;
   for (const auto& w : weights) luminance += w[1];
   for (const Band& band : bands.weights() == nullptr ? bands.list() : std::span<const Band>()) {
@@ -125,6 +133,7 @@ Result<Projector> Projector::of_sensor(const Bands& bands, const Spectrum* light
     return make_error(ErrorCode::kBadArgument,
                       "planned bands are weighed by their plan's own sensor, the CIE observer, alone");
   }
+  SPECTILE_TRY(check_apart(bands));
   Projector out;
   out.bands_ = bands;
   for (const Band& band : bands.list()) {

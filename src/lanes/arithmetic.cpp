@@ -162,6 +162,10 @@ Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execu
 }
 
 Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution) {
+  if (a.bands.overlap()) {
+    return make_error(ErrorCode::kBadArgument, "bands {} overlap: their average counts light twice",
+                      a.bands.description());
+  }
   double total = 0;
   for (const Band& band : a.bands.list()) total += band.width_nm();
   std::vector<float> weights;

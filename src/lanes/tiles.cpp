@@ -51,7 +51,7 @@ class Workers {
     return std::min(threads, ready_.load(std::memory_order_relaxed));
   }
 
-  /// True where the system refused a thread.
+  /// True where the system refused a thread, or memory ended while one was made.
   bool failed() const noexcept { return failed_; }
 
  private:
@@ -70,12 +70,13 @@ class Workers {
   /// Keeps every worker busy until the last one is there, so that none of them makes the next. Returns false
   /// where the system refuses one; ready_ then counts those that were made.
   bool grow(int threads) {
-    make_room();
-    auto start = std::make_unique<Start>();
+    std::unique_ptr<Start> start;
     const int round = begin_round();
     int made = 1;
     bool refused = false;
     try {
+      make_room();
+      start = std::make_unique<Start>();
       start->allowance.emplace(tbb::global_control::max_allowed_parallelism,
                                static_cast<std::size_t>(threads));
       for (; made < threads; ++made) {

@@ -77,7 +77,9 @@ class Fit {
     }
     if (!bands) return;
     for (Eigen::Index k = 0; k < n.half.size(); ++k) {
-      n.half[k] = std::clamp(n.half[k], kNarrowestNm / 2, kWidestNm / 2);
+      // Within the observers' range, beyond which there is no table.
+      const double widest = std::min({kWidestNm / 2, n.lambda[k] - kFirstNm, kLastNm - n.lambda[k]});
+      n.half[k] = std::clamp(n.half[k], kNarrowestNm / 2, widest);
     }
     if (!apart_) return;
     for (Eigen::Index k = 1; k < n.half.size(); ++k) {

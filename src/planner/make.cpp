@@ -65,6 +65,12 @@ constexpr double kNearNm = 10;
 /// Preliminary plans whose worst products are added: the second errs elsewhere than the first.
 constexpr int kFirstPlans = 2;
 
+/// Several lights have lines at several places, where narrow bands end best: fits of bands that may overlap
+/// came out no better for them, and their largest errors worse.
+bool keeps_apart(const PlannerOptions& o) {
+  return o.apart || o.lights.size() > 1;
+}
+
 /// The nearest whole picometre.
 double picometres(double nm) {
   return std::round(nm * 1000) / 1000;
@@ -80,7 +86,7 @@ std::vector<plan::InitialGuess> initial_guesses(plan::Problem& problem, const Pl
   const double even_nm = 300 / static_cast<double>(count);
   const bool bands = o.sampling == BandSampling::kAverages;
   std::vector<double> halves = {0};
-  if (bands) halves = {0.25 * even_nm, 0.4 * even_nm, (o.apart ? 0.1 : 0.8) * even_nm};
+  if (bands) halves = {0.25 * even_nm, 0.4 * even_nm, (keeps_apart(o) ? 0.1 : 0.8) * even_nm};
   for (int i = 0; problem.pool.count() > 0 && i < kFirstPlans; ++i) {
     plan::add_worst_products(problem,
                              {plan::choose_wavelengths(problem, count, halves[0], 1, kExchanges), halves[0]});
@@ -109,7 +115,7 @@ std::vector<plan::InitialGuess> initial_guesses(plan::Problem& problem, const Pl
 Parameters fitted(const Matrix& reflectances, const PlannerOptions& o, const std::vector<Matrix>& integrals,
                   std::size_t count) {
   plan::Problem problem = plan::make_problem(reflectances, o.bounces, integrals);
-  problem.apart = o.apart;
+  problem.apart = keeps_apart(o);
   problem.check = [&o] {
     if (o.go_on && !o.go_on()) throw plan::Stopped{};
   };

@@ -1,4 +1,5 @@
 // Construction, validation and text forms of Bands.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <spectile/spectra/bands.hpp>
@@ -90,6 +91,15 @@ Result<Bands> Bands::from_overlapping(std::vector<Band> bands) {
   return Bands(std::move(bands));
 }
 
+std::pair<double, double> Bands::range_nm() const noexcept {
+  std::pair<double, double> out = {bands_->front().lower_nm, bands_->front().upper_nm};
+  for (const Band& band : *bands_) {
+    out.first = std::min(out.first, band.lower_nm);
+    out.second = std::max(out.second, band.upper_nm);
+  }
+  return out;
+}
+
 bool Bands::overlap() const noexcept {
   double last = 0;
   for (const Band& band : *bands_) {
@@ -136,8 +146,7 @@ Result<Bands> Bands::parse(std::string_view text) {
 
 std::string Bands::description() const {
   const auto list = this->list();
-  const double first = list.front().lower_nm;
-  const double last = list.back().upper_nm;
+  const auto [first, last] = range_nm();
   const double step = (last - first) / static_cast<double>(list.size());
   bool even = true;
   for (std::size_t i = 0; i < list.size(); ++i) {

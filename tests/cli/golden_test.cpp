@@ -12,7 +12,7 @@
 namespace spectile {
 namespace {
 
-/// Four bands under D65 and FL11, as `spectile plan --bands 4 --sample bands --folds 0` chose them.
+/// Four bands under D65 and FL11, as `spectile plan --bands 4 --sample apart --folds 0` chose them.
 constexpr const char* kPlan =
     R"({"wavelengths_nm":[445.403,501.173,549.981,616.915],"bands_nm":[[429.713,461.093],[484.262,518.084],
 [518.087,581.875],[597.004,636.826]],"sensor":{"x":[0.141923980644052,-0.026197230990321483,

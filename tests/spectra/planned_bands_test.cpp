@@ -217,7 +217,7 @@ TEST(PlannedBandsOfPoints, AreNoBucketsForWavelengths) {
 }
 
 TEST(PlannedBandsThatOverlap, AreNoBucketsForWavelengths) {
-  const Bands bands = *planned_bands(averages());
+  const Bands bands = *planned_bands(plan_for({"D65"}, 8, BandSampling::kAverages));
   ASSERT_TRUE(bands.overlap());
   FilmOptions o;
   o.width = o.height = 1;
@@ -230,6 +230,52 @@ TEST(PlannedBandsThatOverlap, AreNoBucketsForWavelengths) {
   // Samples on the bands need no dividing.
   o.input = FilmInput::kBands;
   EXPECT_TRUE(Film::create(o));
+}
+
+TEST(PlannedBandsThatOverlap, NeedTheirPlan) {
+  const Bands planned = *planned_bands(plan_for({"D65"}, 8, BandSampling::kAverages));
+  const Bands bare = *Bands::from_overlapping({planned.list().begin(), planned.list().end()});
+  EXPECT_TRUE(Projector::reflective(planned, *illuminant("D65")));
+  for (const auto& projector : {Projector::reflective(bare, *illuminant("D65")), Projector::emissive(bare),
+                                Projector::emissive(bare, *Sensor::named("cie1931"))}) {
+    ASSERT_FALSE(projector);
+    EXPECT_THAT(projector.error().message, HasSubstr("overlap"));
+  }
+  EXPECT_FALSE(Upsampler::create(kDefaultMethod, Quantity::kReflectance, bare));
+  const auto spectra = *SampledSpectra::create(planned, 64);
+  auto lanes = *ScalarLanes::create(64);
+  EXPECT_FALSE(average(spectra.view(), lanes.span()));
+  const auto [first, last] = planned.range_nm();
+  for (const Band& band : planned.list()) {
+    EXPECT_LE(first, band.lower_nm);
+    EXPECT_GE(last, band.upper_nm);
+  }
+}
+
+TEST(PlannedBandsThatOverlap, GiveColoursBack) {
+  const Bands bands = *planned_bands(plan_for({"D65"}, 8, BandSampling::kAverages));
+  for (const Method method : {Method::kTetrahedral, Method::kSmitsExact, Method::kSigmoid}) {
+    const auto upsampler = Upsampler::create(method, Quantity::kReflectance, bands);
+    ASSERT_TRUE(upsampler) << upsampler.error().message;
+    auto rgb = *ColorLanes::create(64);
+    for (std::size_t i = 0; i < 64; ++i) {
+      rgb.at(i, 0) = static_cast<float>(i % 4) / 3;
+      rgb.at(i, 1) = static_cast<float>(i / 4 % 4) / 3;
+      rgb.at(i, 2) = static_cast<float>(i / 16) / 3;
+    }
+    auto spectra = *SampledSpectra::create(bands, 64);
+    ASSERT_TRUE(upsample_srgb(*upsampler, rgb.view(), spectra.span()));
+    const auto projector = *Projector::reflective(bands, *illuminant("D65"));
+    for (std::size_t i = 0; i < 64; ++i) {
+      std::array<double, 3> xyz{};
+      for (std::size_t b = 0; b < bands.count(); ++b) {
+        for (std::size_t k = 0; k < 3; ++k)
+          xyz[k] += projector.weights()[b][k] * static_cast<double>(spectra.at(i, b));
+      }
+      const auto back = times(projector.xyz_to_srgb(), xyz);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], rgb.at(i, k), 2e-6) << to_string(method);
+    }
+  }
 }
 
 TEST(PlannedBandsOfBrokenPlans, AreRefused) {

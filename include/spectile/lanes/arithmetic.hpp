@@ -58,7 +58,7 @@ Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execu
 /// out[lane] = greatest sample; NaN is passed over, and a lane of nothing but NaN gives -infinity.
 Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 /// out[lane] = average over wavelength: samples weighted with their bands' widths; relative error at most
-/// (bands + 1) * 2^-24 for samples of one sign.
+/// (bands + 1) * 2^-24 for samples of one sign. Errors: kBadArgument for bands that overlap.
 Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 
 /// One bit a lane: bit i % 64 of word i / 64; the last word's bits beyond the lanes are 0.

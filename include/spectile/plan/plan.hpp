@@ -67,7 +67,7 @@ struct Plan {
 };
 
 /// The bands of a plan, with its weights and report. Errors: kBadArgument for a plan without wavelengths, of
-/// lists that differ in length, or as for Bands::from_list().
+/// lists that differ in length, or as for Bands::from_overlapping().
 Result<Bands> planned_bands(const Plan& plan);
 
 /// The plan that bands with weights are of.
@@ -78,8 +78,9 @@ struct PlannerOptions {
   std::vector<NamedLight> lights;  ///< 0 beyond their tables' ends
   /// Reflectances of the scene, constant beyond their ends; outside -0.1 to 2 they are an error.
   std::vector<Spectrum> reflectances;
-  BandSampling sampling = BandSampling::kPoints;  ///< averages have a fraction of the error, for one bounce
-  bool apart = false;                ///< bands that do not overlap, which films fed with wavelengths take
+  BandSampling sampling = BandSampling::kPoints;  ///< averages err less, much less for one light
+  bool apart =
+      false;  ///< bands never overlap, as films fed with wavelengths need; with several lights they do not
   int bounces = 1;                   ///< products of up to so many reflectances, 1 to 4
   std::optional<std::size_t> bands;  ///< number of wavelengths, 3 to 64
   std::optional<double>

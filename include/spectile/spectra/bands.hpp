@@ -7,6 +7,7 @@
 #include <spectile/result.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spectile {
@@ -46,9 +47,10 @@ class Bands {
   /// Errors: kBadArgument for an empty list, more than kMaxBands, unordered or overlapping bands.
   static Result<Bands> from_list(std::vector<Band> bands);
 
-  /// The same, but bands may overlap: only their centres ascend. For averages that are weighed together, as
-  /// those of a plan; what divides the spectrum among bands refuses them.
-  /// Errors: kBadArgument for an empty list, more than kMaxBands, or unordered bands.
+  /// The same, but bands may overlap: only their centres ascend. For averages with weights of their own,
+  /// those of a plan; projections without such weights, averages over wavelength, and films fed with
+  /// wavelengths, which count each wavelength once, refuse them. Errors: kBadArgument for an empty list, more
+  /// than kMaxBands, or unordered bands.
   static Result<Bands> from_overlapping(std::vector<Band> bands);
 
   /// Bands around given centres: edges halfway between neighbours, the outer ones symmetric.
@@ -79,6 +81,8 @@ class Bands {
   const PlanReport* report() const noexcept;
   /// True if samples are values at the centres, as some plans' are, and not averages.
   bool are_points() const noexcept;
+  /// The lowest edge and the highest.
+  std::pair<double, double> range_nm() const noexcept;
   /// True if a wavelength is in two of them.
   bool overlap() const noexcept;
 

@@ -54,13 +54,16 @@ std::vector<std::string> plot_columns(std::span<const double> values, int rows, 
 }
 
 std::vector<std::string> plot(std::span<const float> values, const Bands& bands) {
-  const double first = bands[0].lower_nm;
-  const double last = bands[bands.count() - 1].upper_nm;
+  const auto [first, last] = bands.range_nm();
   std::vector<double> columns;
   for (int column = 0; column < kColumns; ++column) {
     const double lambda = first + (column + 0.5) / kColumns * (last - first);
     std::size_t b = 0;
     while (b + 1 < bands.count() && bands[b].upper_nm <= lambda) ++b;
+    // Of bands that overlap, the one whose middle is nearest.
+    while (b + 1 < bands.count() && bands[b + 1].lower_nm <= lambda &&
+           std::abs(bands[b + 1].centre_nm - lambda) < std::abs(bands[b].centre_nm - lambda))
+      ++b;
     columns.push_back(static_cast<double>(values[b]));
   }
   return plot_columns(columns, kRows, first, last);

@@ -53,8 +53,8 @@ std::string to_text(const Bands& bands) {
       for (const double v : light.emission) digest.add(v);
     }
   }
-  return fmt::format("{} from {} to {} nm #{}", bands.count(), bands[0].lower_nm,
-                     bands[bands.count() - 1].upper_nm, digest.text());
+  const auto [first, last] = bands.range_nm();
+  return fmt::format("{} from {} to {} nm #{}", bands.count(), first, last, digest.text());
 }
 
 std::string to_text(const std::vector<MappedChannel>& map) {

@@ -25,8 +25,16 @@ Plan plan_of(BandSampling sampling) {
   return *make_plan(o);
 }
 
+/// Of bands that overlap: widened, with weights that still have the white of both lights.
 const Plan& plan() {
-  static const Plan made = plan_of(BandSampling::kAverages);
+  static const Plan made = [] {
+    Plan out = plan_of(BandSampling::kAverages);
+    for (Band& band : out.bands) {
+      band.lower_nm -= 12;
+      band.upper_nm += 12;
+    }
+    return out;
+  }();
   return made;
 }
 
@@ -205,6 +213,7 @@ TEST_F(PlannedBandsImages, AreConvertedWithTheirPlanButNotToOtherBands) {
 }
 
 TEST_F(PlannedBandsImages, HoldFilmsToo) {
+  ASSERT_TRUE(options_.bands.overlap());
   FilmOptions o;
   o.width = o.height = 2;
   o.input = FilmInput::kBands;
