@@ -102,12 +102,16 @@ def measured(args, lights, lists, more):
 # Of others, on the reflectances and lights of docs/methods.md: their mean errors, from there. They were not timed.
 OTHERS = (("LHTSS (Burns 2020)", 1.216), ("Otsu et al. 2018", 1.464))
 
+# Of labels, where they do not overlap: right of a point, below it, anchor.
+PLACES = {"smits": (6, -6, "start"), "mallett": (6, 4, "start"), "smits-exact": (6, 8, "start"), "sigmoid": (-6, -4, "end"),
+          "sigmoid-observer": (-2, 30, "end"), "tetrahedral": (6, 15, "start")}
+
 
 def plot(path, ways, lights, bands):
     """Error under other lights against the cost of a pixel, for spectra in memory and for relighting without them."""
     panels = []
     for title, kind in ((f"Through spectra in memory, {bands}", "spectra in float"), (f"Relighting, {bands}", "fused")):
-        lines = [("#606060", "2 3", [0.1, 100], [mean, mean], name) for name, mean in OTHERS]
+        lines = [("#606060", "2 3", [0.1, 100], [mean, mean], (name, 6, -4, "start")) for name, mean in OTHERS]
         for method in METHODS:
             found = [w for w in ways if w["name"] == f"{method}, {bands}, {kind}"]
             if not found:
@@ -116,7 +120,7 @@ def plot(path, ways, lights, bands):
             mean = statistics.fmean(statistics.fmean(w["differences"]) for w in found)
             largest = max(max(w["differences"]) for w in found)
             color = "#d55e00" if method == "tetrahedral" else "#0072b2"
-            lines.append((color, "", [nanoseconds] * 2, [mean, largest], method))
+            lines.append((color, "", [nanoseconds] * 2, [mean, largest], (method, *PLACES[method])))
         panels.append((title, lines))
     line_plot(path, f"Error under {len(lights)} other lights against cost, from RGB under D65", "nanoseconds a pixel, one thread",
               "CIEDE2000, mean (named) and largest", (0.1, 100, 0.5, 20),

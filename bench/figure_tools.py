@@ -35,8 +35,8 @@ def table(heads, rows):
 
 
 def line_plot(path, title, x_label, y_label, ends, keys, panels):
-    """Panels, two a row, of lines over two logarithmic axes. A line: (colour, dashes, xs, ys), or with a label at its first
-    point; a key: (label, colour, dashes); ends: x0, x1, y0, y1."""
+    """Panels, two a row, of lines over two logarithmic axes. A line: (colour, dashes, xs, ys), or with a label near its
+    first point: (words, right of it, below it, anchor); a key: (label, colour, dashes); ends: x0, x1, y0, y1."""
     width, height, left, right, top, bottom, apart_x, apart_y = 900, 620, 72, 18, 84, 56, 60, 44
     x0, x1, y0, y1 = ends
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
@@ -91,9 +91,8 @@ def line_plot(path, title, x_label, y_label, ends, keys, panels):
             out.append(f'<polyline points="{" ".join(f"{a:.1f},{b:.1f}" for a, b in points)}" {stroke_of(color, dashes)}/>')
             if dashes != "2 3":
                 out += [f'<circle cx="{a:.1f}" cy="{b:.1f}" r="2.4" fill="{color}"/>' for a, b in points]
-            for words in label:
-                last = points[0][0] > bx + 0.75 * w
-                text(points[0][0] + (-6 if last else 6), points[0][1] - 4, "end" if last else "start", 11, words)
+            for words, right, below, anchor in label:
+                text(points[0][0] + right, points[0][1] + below, anchor, 11, words)
     text(left + (width - left - right) / 2, height - 14, "middle", 14, x_label)
     middle = top + (height - top - bottom) / 2
     text(20, middle, "middle", 14, y_label, f' transform="rotate(-90 20 {middle:.1f})"')
