@@ -34,6 +34,7 @@ bool same(const BandLight& a, const BandLight& b) {
 void require_same(const Plan& a, const Plan& b, const std::string& text) {
   fuzz::require(a.weights.observer == b.weights.observer, "the observer comes back", text);
   fuzz::require(same(a.wavelengths_nm, b.wavelengths_nm), "wavelengths come back to the bit", text);
+  fuzz::require(a.bands == b.bands, "bands come back to the bit", text);
   fuzz::require(std::ranges::equal(a.weights.sensor, b.weights.sensor,
                                    [](const auto& x, const auto& y) { return same(x, y); }),
                 "sensor weights come back to the bit", text);
