@@ -7,7 +7,8 @@
 namespace spectile::plan {
 namespace {
 
-/// Wavelengths stay within the visible, bands no narrower than this, and all at least so far apart.
+/// Wavelengths stay within the visible, bands no narrower and no wider than this, and all at least so far
+/// apart.
 constexpr double kLowestNm = 385;
 constexpr double kHighestNm = 725;
 constexpr double kApartNm = 2;

@@ -70,8 +70,8 @@ TEST_F(Usage, EmptyFileIsBadInput) {
 }
 
 TEST_F(Usage, MagicNumberAloneIsBadInput) {
-  test::write_text(folder_ / "stub.exr", test::file_bytes(good_).substr(0, 8));
-  expect_bad_input(folder_ / "stub.exr");
+  test::write_text(folder_ / "short.exr", test::file_bytes(good_).substr(0, 8));
+  expect_bad_input(folder_ / "short.exr");
 }
 
 TEST_F(Usage, TruncatedFileIsBadInput) {
