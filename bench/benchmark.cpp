@@ -249,8 +249,12 @@ Result<void> measure_jobs(Run& run, const BenchmarkOptions& options, BenchmarkRe
     run.set_done(0.4 + 0.4 * static_cast<double>(i) / static_cast<double>(lights.size()));
     SPECTILE_TRY(run.part(fmt::format("methods under {}", lights[i]), [&]() -> Result<void> {
       SPECTILE_ASSIGN(auto light, reference_light(lights[i]));
-      SPECTILE_ASSIGN(auto planned, planned_bands_for(lights[i], options.quick));
-      const MethodScene scene{&reflectances, &light, table, std::move(planned), options.seed};
+      MethodScene scene{&reflectances, &light, table, {}, {}, options.seed};
+      const auto counts = options.quick ? std::vector<std::size_t>{8} : std::vector<std::size_t>{8, 12};
+      SPECTILE_ASSIGN(scene.planned, planned_bands_for(lights[i], counts));
+      if (!options.quick) {
+        SPECTILE_ASSIGN(scene.planned_for_paths, planned_bands_for(lights[i], {8, 12, 16}, 2));
+      }
       for (const bool film : {false, true}) {
         SPECTILE_ASSIGN(auto methods,
                         film ? film_methods(scene, options.quick) : rgb_methods(scene, options.quick));

@@ -1,9 +1,7 @@
 // Choice of the AoS baseline's compilation that runs here.
 #include "bench/baseline/aos_baseline.hpp"
 
-#include <string_view>
-
-#include "src/dispatch/dispatch.hpp"
+#include "bench/limits/processor_level.hpp"
 
 namespace spectile::measure {
 
@@ -16,13 +14,12 @@ extern const AosBaseline aos_baseline_v4;
 
 const AosBaseline& aos_baseline() {
 #if defined(__x86_64__)
-  // The levels ask for what the kernels of these names ask for.
-  const char* widest = dispatch::available().back()->name;
-  if (std::string_view(widest) == "avx512") return aos_baseline_v4;
-  if (std::string_view(widest) == "avx2") return aos_baseline_v3;
-  if (std::string_view(widest) == "sse4.2") return aos_baseline_v2;
-#endif
+  static const AosBaseline* const kLevels[] = {&aos_baseline_generic, &aos_baseline_v2, &aos_baseline_v3,
+                                               &aos_baseline_v4};
+  return *kLevels[processor_level()];
+#else
   return aos_baseline_generic;
+#endif
 }
 
 }  // namespace spectile::measure

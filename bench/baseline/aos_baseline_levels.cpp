@@ -267,7 +267,7 @@ void draw_visible(const AosTables& /*tables*/, const float* u, float* out, std::
 }  // namespace
 
 extern const AosBaseline SPECTILE_AOS_BASELINE;
-constexpr AosBaseline SPECTILE_AOS_BASELINE = {SPECTILE_AOS_BASELINE_TEXT,
+constexpr AosBaseline SPECTILE_AOS_BASELINE = {SPECTILE_LEVEL_TEXT,
                                                {job<16>(), job<30>(), job<60>()},
                                                upsample,
                                                upsample_fused,

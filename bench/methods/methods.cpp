@@ -13,7 +13,8 @@
 
 namespace spectile::measure {
 
-Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quick) {
+Result<std::vector<Bands>> planned_bands_for(const std::string& light, std::vector<std::size_t> counts,
+                                             int bounces) {
   SPECTILE_ASSIGN(const auto wide, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
   SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, wide));
   PlannerOptions options;
@@ -28,9 +29,9 @@ Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quic
   options.lights.push_back(std::move(under));
   options.sampling = BandSampling::kAverages;
   options.folds = 0;
+  options.bounces = bounces;
   std::vector<Bands> out;
-  for (const std::size_t count : {std::size_t{8}, std::size_t{12}}) {
-    if (quick && count != 8) continue;
+  for (const std::size_t count : counts) {
     options.bands = count;
     SPECTILE_ASSIGN(auto plan, make_plan(options));
     SPECTILE_ASSIGN(auto bands, planned_bands(plan));

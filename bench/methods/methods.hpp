@@ -37,7 +37,8 @@ struct MethodScene {
   const std::vector<ReferenceReflectance>* reflectances = nullptr;
   const ReferenceLight* light = nullptr;
   const kernels::KernelTable* table = nullptr;
-  std::vector<Bands> planned;  ///< for this light; see planned_bands_for()
+  std::vector<Bands> planned;            ///< for this light; see planned_bands_for()
+  std::vector<Bands> planned_for_paths;  ///< the same, for two bounces
   std::uint64_t seed = 1;
 };
 
@@ -50,8 +51,9 @@ inline constexpr const char* kFilmJob =
     "drawn wavelengths";
 
 /// Bands planned for a light, for the spectra that sigmoids make of colours of sRGB: none of the measured
-/// reflectances that errors are over. Errors: as make_plan().
-Result<std::vector<Bands>> planned_bands_for(const std::string& light, bool quick);
+/// reflectances that errors are over. `counts`: of bands. Errors: as make_plan().
+Result<std::vector<Bands>> planned_bands_for(const std::string& light, std::vector<std::size_t> counts,
+                                             int bounces = 1);
 
 /// Every method for one light. Errors: as those that make them.
 Result<std::vector<MethodRun>> rgb_methods(const MethodScene& scene, bool quick);
@@ -69,9 +71,8 @@ void mark_frontier(std::vector<MethodSpeed>& methods);
 /// Which to take, in words, for each job and light.
 std::vector<BenchmarkAdvice> advice_on(const std::vector<MethodSpeed>& methods);
 
-/// Paths of 1 to 5 reflectances drawn at random, under the scene's light: three numbers, 30 and 60 even
-/// bands, planned bands, and 60 bands of sigmoids made of the reflectances' RGB. Errors: as those that make
-/// them.
+/// Paths of 1 to 5 reflectances drawn at random, under the scene's light, in every representation of
+/// bench/representations. Errors: as those that make them.
 Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& scene,
                                                                  const TimingBudget& timing);
 

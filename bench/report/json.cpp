@@ -65,10 +65,9 @@ static void to_json(Json& json, const MethodSpeed& w) {
 }
 
 static void to_json(Json& json, const RepresentationSpeed& r) {
-  json = {{"light", r.light},     {"spiky", r.line_spectrum},
-          {"name", r.name},       {"coefficients", r.coefficients},
-          {"bounces", r.bounces}, {"nanoseconds", r.nanoseconds},
-          {"spread", r.spread},   {"error", r.error}};
+  json = {{"light", r.light},   {"spiky", r.line_spectrum},     {"name", r.name},
+          {"source", r.source}, {"bounces", r.bounces},         {"coefficients", r.coefficients},
+          {"spread", r.spread}, {"nanoseconds", r.nanoseconds}, {"error", r.error}};
 }
 
 std::string benchmark_to_json(const BenchmarkReport& report) {

@@ -74,7 +74,7 @@ std::string overview(const BenchmarkReport& report, const std::string& light,
 std::string details(const BenchmarkReport& report, const std::string& light,
                     const std::vector<std::string>& names) {
   Table table(light + ": every measurement. ns: a path, one thread; mean, 95 %, max: CIEDE2000",
-              {"representation", "bounces", "ns", "mean", "95 %", "max", "spread", "coefficients"});
+              {"representation", "bounces", "ns", "mean", "95 %", "max", "spread", "coefficients", "source"});
   std::size_t count = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
@@ -85,7 +85,8 @@ std::string details(const BenchmarkReport& report, const std::string& light,
                  html(number(r->error.percentile95)),
                  html(number(r->error.maximum)),
                  html("±" + percent(r->spread)),
-                 html(fmt::format("{}", r->coefficients))});
+                 html(fmt::format("{}", r->coefficients)),
+                 html(r->source)});
       ++count;
     }
   }

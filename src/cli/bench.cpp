@@ -115,7 +115,7 @@ void print_representations(const BenchmarkReport& r) {
       heading = s.light;
       print("\nBounces 1 to 5 under {}: ns, CIEDE2000 mean (max)\n", s.light);
     }
-    print("  {:<28}", s.name);
+    print("  {:<37}", s.name);
     for (const RepresentationSpeed& t : r.representations) {
       if (t.light != s.light || t.name != s.name) continue;
       print("  {:.3g} ns {:.3f} ({:.2f})", t.nanoseconds, t.error.mean, t.error.maximum);

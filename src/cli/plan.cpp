@@ -43,9 +43,9 @@ struct PlanArguments {
 /// Input of the planner, and its description.
 struct Scene {
   PlannerOptions options;
-  std::string from;                   ///< "24 reflectances and 128 colours of 1 texture"
-  std::vector<std::string> notes;     ///< on files of spectra
-  std::vector<std::string> textures;  ///< notes on textures
+  std::string from;                  ///< "24 reflectances and 128 colours of 1 texture"
+  std::vector<std::string> notes;    ///< on files of spectra
+  std::vector<std::string> assumed;  ///< notes on textures and bounces
 };
 
 /// Throws: Stop.
@@ -100,7 +100,7 @@ void add_textures(const PlanArguments& a, Scene& scene) {
     options.progress = nullptr;  // clears the bar
     const std::vector<Spectrum> colors = take(std::move(result));
     out.insert(out.end(), colors.begin(), colors.end());
-    scene.textures.insert(scene.textures.end(), notes.begin(), notes.end());
+    scene.assumed.insert(scene.assumed.end(), notes.begin(), notes.end());
   }
 }
 
@@ -137,7 +137,7 @@ void print_report(const Plan& plan, const Scene& scene, double seconds, const st
   std::string list;
   for (const double nm : plan.wavelengths_nm) list += fmt::format(" {:.1f}", nm);
   print(" {} nm\n", list);
-  Notes().print(scene.textures);
+  Notes().print(scene.assumed);
   if (plan.report.errors.empty()) {
     print("  no cross-validated error, as there was no cross-validation\n");
     return;
@@ -181,6 +181,10 @@ int run_plan(const PlanArguments& a) {
   o.go_on = [] { return !interrupted(); };
   add_lights(a, scene);
   add_reflectances(a, scene);
+  if (o.bounces == 1) {
+    scene.assumed.emplace_back(
+        "assumed that light meets one material; where it meets two or more, errors are larger: --bounces 2");
+  }
   print_notes(a.common, scene.notes);
   const auto start = std::chrono::steady_clock::now();
   const auto plan = make_plan(o);
@@ -196,7 +200,7 @@ int run_plan(const PlanArguments& a) {
   if (a.common.json) {
     auto json = nlohmann::ordered_json::parse(plan_to_json(*plan));
     std::vector<std::string> notes = scene.notes;
-    notes.insert(notes.end(), scene.textures.begin(), scene.textures.end());
+    notes.insert(notes.end(), scene.assumed.begin(), scene.assumed.end());
     if (!notes.empty()) json["notes"] = notes;
     print_verbatim(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else if (!a.common.quiet) {

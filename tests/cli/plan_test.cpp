@@ -13,6 +13,7 @@ namespace {
 
 using test::run_tool;
 using testing::HasSubstr;
+using testing::Not;
 
 class PlanCommand : public testing::Test {
  protected:
@@ -85,8 +86,9 @@ TEST_F(PlanCommand, WritesAPlanAndReportsItsPromise) {
 TEST_F(PlanCommand, PrintsThePlanAsJson) {
   const auto outcome = run_tool(plan({"--illuminant", "A", "--bands", "6", "--folds", "0", "--json"}));
   ASSERT_EQ(outcome.exit, 0) << outcome;
-  const auto objects = test::json_lines(outcome.out);
+  auto objects = test::json_lines(outcome.out);
   ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].erase("notes"), 1U);
   EXPECT_EQ(objects[0]["wavelengths_nm"].size(), 6U);
   EXPECT_EQ(objects[0], nlohmann::json::parse(test::file_bytes(output_)));
 }
@@ -103,6 +105,17 @@ TEST_F(PlanCommand, PlansForTheColorsOfATexture) {
   const auto plan = load_plan(output_);
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_TRUE(plan->report.errors.empty());
+}
+
+TEST_F(PlanCommand, OneBounceIsSaidToBeAssumed) {
+  const auto one = run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0"}));
+  ASSERT_EQ(one.exit, 0) << one;
+  EXPECT_THAT(one.out, HasSubstr("light meets one material"));
+  const auto two = run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0", "--bounces", "2"}));
+  ASSERT_EQ(two.exit, 0) << two;
+  EXPECT_THAT(two.out, Not(HasSubstr("light meets one material")));
+  const auto json = run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0", "--json"}));
+  EXPECT_THAT(test::json_lines(json.out).at(0)["notes"].dump(), HasSubstr("light meets one material"));
 }
 
 TEST_F(PlanCommand, AnErrorThatCannotBeMetIsSaidInOneLine) {

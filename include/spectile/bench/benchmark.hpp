@@ -109,11 +109,12 @@ struct RepresentationSpeed {
   std::string light;
   bool line_spectrum = false;
   std::string name;
-  int coefficients = 0;  ///< a lane
+  int coefficients = 0;  ///< of a material
   int bounces = 1;
-  double nanoseconds = 0;  ///< a path: its products and its colour
+  double nanoseconds = 0;  ///< a path: its products and its colour, of all samples of drawn wavelengths
   double spread = 0;
   ColorError error;
+  std::string source = {};  ///< publication, in short; empty for usual practice and spectile's own
 };
 
 /// Result of an operation's stress test.

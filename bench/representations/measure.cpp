@@ -1,0 +1,152 @@
+// Representations of light and materials side by side, in scenes of some bounces: time and error.
+#include <fmt/format.h>
+
+#include <random>
+#include <spectile/color/rgb_space.hpp>
+
+#include "bench/representations/representation.hpp"
+#include "src/base/errors.hpp"
+
+namespace spectile::measure {
+namespace {
+
+/// Adds one that multiplies coefficients, where making its coefficients went well.
+Result<void> add(std::vector<Representation>& to, const PathScene& scene, std::string name,
+                 std::string source, const Result<Products>& products) {
+  SPECTILE_TRY(products);
+  SPECTILE_ASSIGN(auto made, multiplied(scene, std::move(name), std::move(source), *products));
+  to.push_back(std::move(made));
+  return {};
+}
+
+}  // namespace
+
+Result<PathScene> path_scene(const MethodScene& scene) {
+  PathScene out;
+  out.scene = &scene;
+  std::mt19937_64 random(scene.seed);
+  out.paths.resize(kPaths);
+  for (auto& path : out.paths) {
+    for (std::size_t& at : path) at = random() % scene.reflectances->size();
+  }
+  SPECTILE_ASSIGN(const auto d65, reference_light("D65"));
+  const Matrix3 to_rgb = inverse(rgb_to_xyz(kRec709, d65.white));
+  for (const ReferenceReflectance& r : *scene.reflectances) {
+    out.colors.push_back(times(to_rgb, reference_xyz(d65, {&r})));
+  }
+  return out;
+}
+
+double seen_at(const ReferenceLight& light, std::size_t sample) {
+  double out = 0;
+  for (std::size_t k = 0; k < 3; ++k) out += light.weights[k][sample] / light.white[k];
+  return out;
+}
+
+std::vector<std::vector<double>> spectra_of_scene(const PathScene& scene) {
+  std::vector<std::vector<double>> out;
+  const auto& all = scene.reflectances();
+  for (const ReferenceReflectance& r : all) out.push_back(r.values);
+  // Each with a few of the others, or there are too many.
+  constexpr std::size_t kOthers = 12;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t step = 0; step < std::min(kOthers, all.size()); ++step) {
+      std::vector<double>& product = out.emplace_back(all[i].values);
+      const auto& other = all[(i + step) % all.size()].values;
+      for (std::size_t s = 0; s < kGridSamples; ++s) product[s] *= other[s];
+    }
+  }
+  return out;
+}
+
+Result<std::vector<Representation>> representations_for(const PathScene& scene) {
+  std::vector<Representation> out;
+  SPECTILE_ASSIGN(const auto d65, reference_light("D65"));
+  SPECTILE_TRY(add(out, scene, "RGB", "", rgb_products(scene, d65.white)));
+  SPECTILE_TRY(
+      add(out, scene, "sharpened RGB", "Ward and Eydelberg-Vileshin 2002", sharpened_products(scene)));
+  std::vector<std::pair<std::string, Bands>> lists;
+  for (const char* text : {"400:700:10", "400:700:5"}) {
+    SPECTILE_ASSIGN(auto bands, Bands::parse(text));
+    lists.emplace_back(fmt::format("{} even bands", bands.count()), bands);
+  }
+  for (const Bands& bands : scene.scene->planned) {
+    lists.emplace_back(fmt::format("{} planned bands", bands.count()), bands);
+  }
+  for (const Bands& bands : scene.scene->planned_for_paths) {
+    lists.emplace_back(fmt::format("{} planned bands, for 2 bounces", bands.count()), bands);
+  }
+  for (const auto& [name, bands] : lists)
+    SPECTILE_TRY(add(out, scene, name, "", band_products(scene, bands)));
+  const auto leaves = tree_leaves(scene, 16);
+  SPECTILE_TRY(add(out, scene, fmt::format("{} leaves of a tree", leaves.size()), "Rougeron and Peroche 1997",
+                   tree_products(scene, leaves)));
+  SPECTILE_TRY(add(out, scene, "16 intervals and spikes", "Sun et al. 2001", composite_products(scene)));
+  SPECTILE_ASSIGN(auto cubic, polynomials(scene));
+  out.push_back(std::move(cubic));
+  for (const std::size_t functions : {4, 8}) {
+    SPECTILE_ASSIGN(auto basis, linear_basis(scene, functions));
+    out.push_back(std::move(basis));
+  }
+  SPECTILE_ASSIGN(auto clusters, drawn_wavelengths(scene, Drawing::kStratified, 16));
+  out.push_back(std::move(clusters));
+  SPECTILE_ASSIGN(auto hero, drawn_wavelengths(scene, Drawing::kHero, 4));
+  out.push_back(std::move(hero));
+
+  // A renderer that is given RGB has spectra made of it.
+  struct Made {
+    const char* name;
+    const char* source;
+    Upsampling upsampling;
+  };
+  constexpr Made kMade[] = {{"RGB to sigmoids, 60 bands", "Jakob and Hanika 2019", Upsampling::kSigmoid},
+                            {"RGB to tetrahedral, 60 bands", "", Upsampling::kTetrahedral},
+                            {"RGB to moments, 60 bands", "Peters et al. 2019", Upsampling::kMoments},
+                            {"RGB to smoothest, 60 bands", "Meng et al. 2015", Upsampling::kMeng},
+                            {"RGB to least slope, 60 bands", "Burns 2020", Upsampling::kBurns}};
+  for (const Made& m : kMade) {
+    SPECTILE_TRY(add(out, scene, m.name, m.source, upsampled_products(scene, m.upsampling)));
+  }
+  return out;
+}
+
+Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& of,
+                                                                 const TimingBudget& timing) {
+  SPECTILE_ASSIGN(const auto scene, path_scene(of));
+  SPECTILE_ASSIGN(const auto made, representations_for(scene));
+  std::vector<Timed> timed;
+  for (const Representation& r : made) {
+    for (std::size_t bounces = 1; bounces <= kMaxBounces; ++bounces) {
+      timed.emplace_back().run = [&r, bounces] { r.run(bounces); };
+    }
+  }
+  std::vector<Timed*> work;
+  for (Timed& t : timed) work.push_back(&t);
+  time_in_turn(work, timing);
+  std::vector<RepresentationSpeed> out;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    for (std::size_t bounces = 1; bounces <= kMaxBounces; ++bounces) {
+      const auto colors = made[i].colors(bounces);
+      ErrorList errors(scene.light().white);
+      for (std::size_t p = 0; p < kPaths; ++p) {
+        std::vector<const ReferenceReflectance*> along;
+        for (std::size_t b = 0; b < bounces; ++b) along.push_back(&scene.reflectances()[scene.paths[p][b]]);
+        errors.add(reference_xyz(scene.light(), along), colors[p]);
+      }
+      const Timed& t = timed[i * kMaxBounces + bounces - 1];
+      RepresentationSpeed& speed = out.emplace_back();
+      speed.light = scene.light().name;
+      speed.line_spectrum = scene.light().line_spectrum;
+      speed.name = made[i].name;
+      speed.source = made[i].source;
+      speed.coefficients = static_cast<int>(made[i].coefficients);
+      speed.bounces = static_cast<int>(bounces);
+      speed.nanoseconds = 1e9 * t.seconds / static_cast<double>(kPaths) * made[i].samples;
+      speed.spread = t.spread;
+      speed.error = errors.summary();
+    }
+  }
+  return out;
+}
+
+}  // namespace spectile::measure
