@@ -13,6 +13,9 @@ namespace {
 
 using Rows = std::vector<const RepresentationSpeed*>;
 
+/// Mean errors below this, a thousandth of what can be seen, are rounding: the chart has them as none.
+constexpr double kRoundingOnly = 1e-3;
+
 /// Those of a light and a name, by bounces.
 Rows representation_rows(const BenchmarkReport& report, const std::string& light, const std::string& name) {
   Rows rows;
@@ -40,7 +43,8 @@ Chart make_chart(const BenchmarkReport& report, const std::string& light,
       const std::string title = fmt::format("{}, {} bounce{}: {} ns, CIEDE2000 {} mean, {} at most", r->name,
                                             r->bounces, r->bounces == 1 ? "" : "s", number(r->nanoseconds),
                                             number(r->error.mean), number(r->error.maximum));
-      series.marks.push_back({r->nanoseconds, r->error.mean, title, "", fmt::format("{}", r->bounces)});
+      const double mean = r->error.mean < kRoundingOnly ? 0 : r->error.mean;
+      series.marks.push_back({r->nanoseconds, mean, title, "", fmt::format("{}", r->bounces)});
     }
     chart.series.push_back(std::move(series));
   }
@@ -74,7 +78,8 @@ std::string overview(const BenchmarkReport& report, const std::string& light,
 std::string details(const BenchmarkReport& report, const std::string& light,
                     const std::vector<std::string>& names) {
   Table table(light + ": every measurement. ns: a path, one thread; mean, 95 %, max: CIEDE2000",
-              {"representation", "bounces", "ns", "mean", "95 %", "max", "spread", "coefficients", "source"});
+              {"representation", "bounces", "ns", "mean", "95 %", "max", "spread", "coefficients", "source"},
+              {0, 8});
   std::size_t count = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (const RepresentationSpeed* r : representation_rows(report, light, names[i])) {
@@ -101,8 +106,11 @@ Section representation_section(const BenchmarkReport& report) {
   const auto names = distinct(report.representations, [](const auto& r) { return r.name; });
   std::string body =
       "<p>A path meets a light, then one material a bounce, and ends as a colour: its products and its "
-      "colour are timed, and the colour is compared with that of the same path computed from the spectra "
-      "themselves. The number beside a mark is that of the bounces.</p>\n";
+      "colour are timed, for drawn wavelengths those of all samples, and the colour is compared with that of "
+      "the same path computed from the spectra themselves. The number beside a mark is that of the bounces. "
+      "Bases, trees, spikes and sharpened primaries are made for the light and the scene's own materials, "
+      "planned bands for the light and other materials; <q>RGB to</q> begins with the materials' RGB "
+      "alone.</p>\n";
   for (const std::string& light : distinct(report.representations, [](const auto& r) { return r.light; })) {
     const bool line_spectrum =
         std::any_of(report.representations.begin(), report.representations.end(),

@@ -23,15 +23,9 @@
 #include <utility>
 #include <vector>
 
-namespace spectile::test {
+#include "tests/support/sanitized.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
+namespace spectile::test {
 
 /// How a process ended.
 struct Outcome {
