@@ -13,8 +13,9 @@ namespace {
 
 using Rows = std::vector<const RepresentationSpeed*>;
 
-/// Mean errors below this, a thousandth of what can be seen, are rounding: the chart has them as none.
-constexpr double kRoundingOnly = 1e-3;
+/// Mean errors below this are too small to matter, a thousandth of what can be seen: the chart has them as
+/// none.
+constexpr double kNoError = 1e-3;
 
 /// Those of a light and a name, by bounces.
 Rows representation_rows(const BenchmarkReport& report, const std::string& light, const std::string& name) {
@@ -43,7 +44,7 @@ Chart make_chart(const BenchmarkReport& report, const std::string& light,
       const std::string title = fmt::format("{}, {} bounce{}: {} ns, CIEDE2000 {} mean, {} at most", r->name,
                                             r->bounces, r->bounces == 1 ? "" : "s", number(r->nanoseconds),
                                             number(r->error.mean), number(r->error.maximum));
-      const double mean = r->error.mean < kRoundingOnly ? 0 : r->error.mean;
+      const double mean = r->error.mean < kNoError ? 0 : r->error.mean;
       series.marks.push_back({r->nanoseconds, mean, title, "", fmt::format("{}", r->bounces)});
     }
     chart.series.push_back(std::move(series));
@@ -108,8 +109,9 @@ Section representation_section(const BenchmarkReport& report) {
       "<p>A path meets a light, then one material a bounce, and ends as a colour: its products and its "
       "colour are timed, for drawn wavelengths those of all samples, and the colour is compared with that of "
       "the same path computed from the spectra themselves. The number beside a mark is that of the bounces. "
-      "Bases, trees, spikes and sharpened primaries are made for the light and the scene's own materials, "
-      "planned bands for the light and other materials; <q>RGB to</q> begins with the materials' RGB "
+      "Sharpened RGB and spikes are made for the light, bases and trees for the light and the scene's own "
+      "materials, planned bands for the light and other materials; <q>RGB to</q> begins with the materials' "
+      "RGB "
       "alone.</p>\n";
   for (const std::string& light : distinct(report.representations, [](const auto& r) { return r.light; })) {
     const bool line_spectrum =

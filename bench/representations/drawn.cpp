@@ -12,7 +12,6 @@
 namespace spectile::measure {
 namespace {
 
-constexpr std::size_t kDrawnInAll = 256;
 constexpr double kRange = kLastVisibleNm - kFirstVisibleNm;
 
 /// Between the values at every nanometre; `nm` within them.
@@ -35,12 +34,13 @@ struct DrawnLanes {
       table.multiply(product.data(), in, bounces[bounce].data(), kPaths * wavelengths);
       in = product.data();
     }
-    lane_loops().weigh(xyz.data(), in, weights.data(), wavelengths, blocks_for(kPaths));
+    lane_loops(table.name).weigh(xyz.data(), in, weights.data(), wavelengths, blocks_for(kPaths));
   }
 };
 
-Result<DrawnLanes> draw(const PathScene& scene, const WavelengthDensity& density, Drawing drawing,
-                        std::size_t wavelengths, std::size_t sample, std::mt19937_64& random) {
+Result<DrawnLanes> draw(const PathScene& scene, const DensityTable& density, Drawing drawing,
+                        std::size_t wavelengths, std::size_t sample, std::size_t samples,
+                        std::mt19937_64& random) {
   DrawnLanes out;
   out.wavelengths = wavelengths;
   for (FloatBuffer& bounce : out.bounces) {
@@ -49,12 +49,12 @@ Result<DrawnLanes> draw(const PathScene& scene, const WavelengthDensity& density
   SPECTILE_ASSIGN(out.product, FloatBuffer::create(kPaths * wavelengths));
   SPECTILE_ASSIGN(out.weights, FloatBuffer::create(3 * kPaths * wavelengths));
   SPECTILE_ASSIGN(out.xyz, FloatBuffer::create(3 * kPaths));
-  const double samples = static_cast<double>(kDrawnInAll) / static_cast<double>(wavelengths);
   std::vector<double> jitter(wavelengths);
   for (std::size_t lane = 0; lane < kPaths; ++lane) {
     // Each sample of a path has its own part of the strata.
     for (double& u : jitter) {
-      u = (static_cast<double>(sample) + static_cast<double>(random() >> 11U) * 0x1p-53) / samples;
+      u = (static_cast<double>(sample) + static_cast<double>(random() >> 11U) * 0x1p-53) /
+          static_cast<double>(samples);
     }
     const auto drawn = draw_wavelengths(density, drawing, jitter);
     const std::size_t first = lane / kLanesPerBlock * wavelengths * kLanesPerBlock + lane % kLanesPerBlock;
@@ -76,8 +76,8 @@ Result<DrawnLanes> draw(const PathScene& scene, const WavelengthDensity& density
 
 }  // namespace
 
-WavelengthDensity wavelength_density(const ReferenceLight& light) {
-  WavelengthDensity out;
+DensityTable wavelength_density(const ReferenceLight& light) {
+  DensityTable out;
   for (std::size_t i = 0; i < kGridSamples; ++i) {
     out.density.push_back(seen_at(light, i));
   }
@@ -91,11 +91,11 @@ WavelengthDensity wavelength_density(const ReferenceLight& light) {
   return out;
 }
 
-double WavelengthDensity::at(double nm) const {
+double DensityTable::at(double nm) const {
   return between(density, nm);
 }
 
-double WavelengthDensity::inverse(double u) const {
+double DensityTable::inverse(double u) const {
   const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
   const auto i = static_cast<std::size_t>(above - cumulative.begin()) - 1;
   // The root of the quadratic in the form that has no difference of nearly equal numbers.
@@ -106,7 +106,7 @@ double WavelengthDensity::inverse(double u) const {
   return kFirstVisibleNm + static_cast<double>(i) + std::min(part, 1.0);
 }
 
-std::vector<DrawnWavelength> draw_wavelengths(const WavelengthDensity& density, Drawing drawing,
+std::vector<DrawnWavelength> draw_wavelengths(const DensityTable& density, Drawing drawing,
                                               std::span<const double> jitter) {
   const auto count = static_cast<double>(jitter.size());
   std::vector<DrawnWavelength> out(jitter.size());
@@ -130,18 +130,19 @@ std::vector<DrawnWavelength> draw_wavelengths(const WavelengthDensity& density, 
   return out;
 }
 
-Result<Representation> drawn_wavelengths(const PathScene& scene, Drawing drawing, std::size_t wavelengths) {
-  const WavelengthDensity density = wavelength_density(scene.light());
+Result<Representation> drawn_wavelengths(const PathScene& scene, Drawing drawing, std::size_t wavelengths,
+                                         std::size_t samples) {
+  const DensityTable density = wavelength_density(scene.light());
   std::mt19937_64 random(scene.scene->seed);
-  const std::size_t samples = kDrawnInAll / wavelengths;
   auto drawn = std::make_shared<std::vector<DrawnLanes>>();
   for (std::size_t s = 0; s < samples; ++s) {
-    SPECTILE_ASSIGN(auto lanes, draw(scene, density, drawing, wavelengths, s, random));
+    SPECTILE_ASSIGN(auto lanes, draw(scene, density, drawing, wavelengths, s, samples, random));
     drawn->push_back(std::move(lanes));
   }
   Representation out;
   const bool hero = drawing == Drawing::kHero;
-  out.name = fmt::format("{} {} wavelengths, {} samples", wavelengths, hero ? "hero" : "stratified", samples);
+  out.name = fmt::format("{} {} wavelengths, {} sample{}", wavelengths, hero ? "hero" : "stratified", samples,
+                         samples == 1 ? "" : "s");
   out.source = hero ? "Wilkie et al. 2014" : "Evans and McCool 1999";
   out.coefficients = wavelengths;
   out.samples = static_cast<double>(samples);

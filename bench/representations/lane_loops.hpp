@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 namespace spectile::measure {
 
@@ -24,7 +25,7 @@ struct LaneLoops {
   void (*weigh)(float* xyz, const float* product, const float* weights, std::size_t n, std::size_t blocks);
 };
 
-/// Those compiled for this processor.
-const LaneLoops& lane_loops();
+/// Those compiled for the level of the architecture that has the vectors of an instruction set's kernels.
+const LaneLoops& lane_loops(std::string_view isa);
 
 }  // namespace spectile::measure

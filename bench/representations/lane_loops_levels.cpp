@@ -6,8 +6,14 @@
 namespace spectile::measure {
 namespace {
 
-/// Lanes whose coefficients stay in registers.
+/// Lanes of a vector register: more of eight sums do not stay in registers.
+#if defined(__AVX512F__)
 constexpr std::size_t kTogether = 16;
+#elif defined(__AVX__)
+constexpr std::size_t kTogether = 8;
+#else
+constexpr std::size_t kTogether = 4;
+#endif
 
 template <std::size_t kCount>
 void apply(float* __restrict out, const float* __restrict in, const float* __restrict matrix,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bench/representations/lane_loops.hpp"
 #include "bench/representations/path_lanes.hpp"
@@ -44,7 +45,7 @@ struct BasisLanes {
     const float* in = first.data();
     for (std::size_t bounce = 1; bounce < bounces; ++bounce) {
       float* const to = at[bounce % 2].data();
-      lane_loops().apply[size](to, in, matrices[bounce].data(), blocks_for(kPaths));
+      lane_loops(table.name).apply[size](to, in, matrices[bounce].data(), blocks_for(kPaths));
       in = to;
     }
     output.project(table, in);
@@ -64,7 +65,6 @@ LinearBasis characteristic_basis(const PathScene& scene, std::size_t functions) 
     out.scale[i] = power[i] > 0 ? std::sqrt(seen_at(light, i) / power[i]) : 0;
   }
   Vectors lit = spectra_of_scene(scene);
-  lit.emplace_back(kGridSamples, 1.0);
   for (auto& spectrum : lit) {
     for (std::size_t i = 0; i < kGridSamples; ++i) spectrum[i] *= power[i] * out.scale[i];
   }
@@ -75,9 +75,14 @@ LinearBasis characteristic_basis(const PathScene& scene, std::size_t functions) 
       for (std::size_t k = 0; k < kGridSamples; ++k) covariance[i][k] += spectrum[i] * spectrum[k];
     }
   }
-  // Orthogonal iteration. The spectra themselves are the start.
-  const std::size_t step = lit.size() / functions;
-  for (std::size_t j = 0; j < functions; ++j) out.functions.push_back(lit[j * step]);
+  // Orthogonal iteration from cosines times the light.
+  for (std::size_t j = 0; j < functions; ++j) {
+    std::vector<double>& start = out.functions.emplace_back(kGridSamples);
+    for (std::size_t i = 0; i < kGridSamples; ++i) {
+      const double angle = std::numbers::pi * static_cast<double>(j * i) / kGridSamples;
+      start[i] = power[i] * out.scale[i] * std::cos(angle);
+    }
+  }
   make_orthonormal(out.functions);
   constexpr int kIterations = 60;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -102,10 +107,9 @@ LinearBasis characteristic_basis(const PathScene& scene, std::size_t functions) 
   return out;
 }
 
-Result<Representation> linear_basis(const PathScene& scene, std::size_t functions) {
+Result<Representation> linear_basis(const PathScene& scene, const LinearBasis& basis, std::size_t functions) {
   auto lanes = std::make_shared<BasisLanes>();
   while (kBasisSizes[lanes->size] != functions) ++lanes->size;
-  const LinearBasis basis = characteristic_basis(scene, functions);
   // The lit material, then its matrix.
   Vectors lit;
   Vectors matrices;
@@ -126,7 +130,8 @@ Result<Representation> linear_basis(const PathScene& scene, std::size_t function
   for (FloatBuffer& at : lanes->at) {
     SPECTILE_ASSIGN(at, FloatBuffer::create(kPaths * functions));
   }
-  SPECTILE_ASSIGN(lanes->output, ColorOutput::create(basis.weights));
+  const auto end = basis.weights.begin() + static_cast<std::ptrdiff_t>(functions);
+  SPECTILE_ASSIGN(lanes->output, ColorOutput::create({basis.weights.begin(), end}));
   Representation out = follow_lanes(scene, lanes, functions * (functions + 1) / 2);
   out.name = fmt::format("linear basis, {} functions", functions);
   out.source = "Peercy 1993";

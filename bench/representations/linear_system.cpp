@@ -26,6 +26,7 @@ bool solve_linear(std::vector<double>& matrix, std::vector<double>& right) {
   for (std::size_t row = n; row-- > 0;) {
     for (std::size_t k = row + 1; k < n; ++k) right[row] -= at(row, k) * right[k];
     right[row] /= at(row, row);
+    if (!std::isfinite(right[row])) return false;
   }
   return true;
 }

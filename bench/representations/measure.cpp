@@ -1,9 +1,11 @@
 // Representations of light and materials side by side, in scenes of some bounces: time and error.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 #include <spectile/color/rgb_space.hpp>
 
+#include "bench/representations/lane_loops.hpp"
 #include "bench/representations/representation.hpp"
 #include "src/base/errors.hpp"
 
@@ -43,24 +45,33 @@ double seen_at(const ReferenceLight& light, std::size_t sample) {
   return out;
 }
 
+std::vector<std::size_t> materials_of_scene(const PathScene& scene) {
+  constexpr std::size_t kMost = 48;
+  const std::size_t count = scene.reflectances().size();
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < std::min(kMost, count); ++i) out.push_back(i * count / std::min(kMost, count));
+  return out;
+}
+
 std::vector<std::vector<double>> spectra_of_scene(const PathScene& scene) {
-  std::vector<std::vector<double>> out;
-  const auto& all = scene.reflectances();
-  for (const ReferenceReflectance& r : all) out.push_back(r.values);
-  // Each with a few of the others, or there are too many.
-  constexpr std::size_t kOthers = 12;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t step = 0; step < std::min(kOthers, all.size()); ++step) {
-      std::vector<double>& product = out.emplace_back(all[i].values);
-      const auto& other = all[(i + step) % all.size()].values;
-      for (std::size_t s = 0; s < kGridSamples; ++s) product[s] *= other[s];
+  std::vector<std::vector<double>> out = {std::vector<double>(kGridSamples, 1.0)};
+  const auto materials = materials_of_scene(scene);
+  for (const std::size_t i : materials) {
+    const std::vector<double>& values = scene.reflectances()[i].values;
+    out.push_back(values);
+    for (const std::size_t j : materials) {
+      if (j > i) break;
+      std::vector<double>& product = out.emplace_back(values);
+      for (std::size_t s = 0; s < kGridSamples; ++s) product[s] *= scene.reflectances()[j].values[s];
     }
   }
   return out;
 }
 
-Result<std::vector<Representation>> representations_for(const PathScene& scene) {
+Result<std::vector<Representation>> representations_for(const PathScene& scene,
+                                                        const std::function<bool()>& stop) {
   std::vector<Representation> out;
+  const auto stopped = [&] { return stop && stop(); };
   SPECTILE_ASSIGN(const auto d65, reference_light("D65"));
   SPECTILE_TRY(add(out, scene, "RGB", "", rgb_products(scene, d65.white)));
   SPECTILE_TRY(
@@ -78,20 +89,36 @@ Result<std::vector<Representation>> representations_for(const PathScene& scene) 
   }
   for (const auto& [name, bands] : lists)
     SPECTILE_TRY(add(out, scene, name, "", band_products(scene, bands)));
-  const auto leaves = tree_leaves(scene, 16);
-  SPECTILE_TRY(add(out, scene, fmt::format("{} leaves of a tree", leaves.size()), "Rougeron and Peroche 1997",
-                   tree_products(scene, leaves)));
-  SPECTILE_TRY(add(out, scene, "16 intervals and spikes", "Sun et al. 2001", composite_products(scene)));
+  for (const std::size_t count : {16, 32}) {
+    const auto leaves = tree_leaves(scene, count);
+    SPECTILE_TRY(add(out, scene, fmt::format("{} leaves of a tree", leaves.size()),
+                     "Rougeron and Peroche 1997", tree_products(scene, leaves)));
+  }
+  for (const std::size_t count : {16, 32}) {
+    SPECTILE_TRY(add(out, scene, fmt::format("{} intervals and spikes", count), "Sun et al. 2001",
+                     composite_products(scene, count)));
+  }
+  if (stopped()) return out;
   SPECTILE_ASSIGN(auto cubic, polynomials(scene));
   out.push_back(std::move(cubic));
-  for (const std::size_t functions : {4, 8}) {
-    SPECTILE_ASSIGN(auto basis, linear_basis(scene, functions));
+  const LinearBasis vectors = characteristic_basis(scene, kBasisSizes[std::size(kBasisSizes) - 1]);
+  for (const std::size_t functions : kBasisSizes) {
+    SPECTILE_ASSIGN(auto basis, linear_basis(scene, vectors, functions));
     out.push_back(std::move(basis));
   }
-  SPECTILE_ASSIGN(auto clusters, drawn_wavelengths(scene, Drawing::kStratified, 16));
-  out.push_back(std::move(clusters));
-  SPECTILE_ASSIGN(auto hero, drawn_wavelengths(scene, Drawing::kHero, 4));
-  out.push_back(std::move(hero));
+  if (stopped()) return out;
+  struct Drawn {
+    Drawing drawing;
+    std::size_t wavelengths, samples;
+  };
+  constexpr Drawn kDrawn[] = {{Drawing::kStratified, 16, 1},
+                              {Drawing::kStratified, 16, 16},
+                              {Drawing::kHero, 4, 4},
+                              {Drawing::kHero, 4, 64}};
+  for (const Drawn& d : kDrawn) {
+    SPECTILE_ASSIGN(auto drawn, drawn_wavelengths(scene, d.drawing, d.wavelengths, d.samples));
+    out.push_back(std::move(drawn));
+  }
 
   // A renderer that is given RGB has spectra made of it.
   struct Made {
@@ -105,6 +132,7 @@ Result<std::vector<Representation>> representations_for(const PathScene& scene) 
                             {"RGB to smoothest, 60 bands", "Meng et al. 2015", Upsampling::kMeng},
                             {"RGB to least slope, 60 bands", "Burns 2020", Upsampling::kBurns}};
   for (const Made& m : kMade) {
+    if (stopped()) return out;
     SPECTILE_TRY(add(out, scene, m.name, m.source, upsampled_products(scene, m.upsampling)));
   }
   return out;
@@ -113,7 +141,7 @@ Result<std::vector<Representation>> representations_for(const PathScene& scene) 
 Result<std::vector<RepresentationSpeed>> measure_representations(const MethodScene& of,
                                                                  const TimingBudget& timing) {
   SPECTILE_ASSIGN(const auto scene, path_scene(of));
-  SPECTILE_ASSIGN(const auto made, representations_for(scene));
+  SPECTILE_ASSIGN(const auto made, representations_for(scene, timing.stop));
   std::vector<Timed> timed;
   for (const Representation& r : made) {
     for (std::size_t bounces = 1; bounces <= kMaxBounces; ++bounces) {

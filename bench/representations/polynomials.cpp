@@ -27,7 +27,8 @@ struct PolynomialLanes {
     const float* in = bounces[0].data();
     for (std::size_t bounce = 1; bounce < of; ++bounce) {
       float* const to = product[bounce % 2].data();
-      lane_loops().multiply_chebyshev(to, in, bounces[bounce].data(), blocks_for(kPaths) * kIntervals);
+      lane_loops(table.name)
+          .multiply_chebyshev(to, in, bounces[bounce].data(), blocks_for(kPaths) * kIntervals);
       in = to;
     }
     output.project(table, in);

@@ -6,6 +6,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "bench/representations/linear_system.hpp"
+#include "bench/representations/phases.hpp"
 #include "bench/representations/representation.hpp"
 #include "src/base/errors.hpp"
 #include "src/upsampling/quadratic_program.hpp"
@@ -28,7 +29,10 @@ Color sums_of(std::span<const Color> weights, const std::vector<double>& spectru
 
 double distance(const Color& a, const Color& b) {
   double out = 0;
-  for (std::size_t k = 0; k < 3; ++k) out = std::max(out, std::abs(a[k] - b[k]));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double apart = std::abs(a[k] - b[k]);
+    if (!(apart <= out)) out = apart;  // NaN too
+  }
   return out;
 }
 
@@ -55,18 +59,23 @@ Result<std::vector<std::vector<double>>> engine_spectra(const PathScene& scene, 
 
 }  // namespace
 
-std::vector<double> moment_spectrum(std::span<const double> centres_nm, std::span<const Color> weights,
+double moment_phase(double nm) {
+  const double at = (nm - kFirstVisibleNm) / 5;
+  const auto i = std::min(static_cast<std::size_t>(std::max(at, 0.0)), std::size(kMomentPhases) - 2);
+  const double part = std::clamp(at - static_cast<double>(i), 0.0, 1.0);
+  return (1 - part) * kMomentPhases[i] + part * kMomentPhases[i + 1];
+}
+
+std::vector<double> moment_spectrum(std::span<const double> phases, std::span<const Color> weights,
                                     const Color& color) {
   const std::size_t bands = weights.size();
   std::vector<double> out(bands);
   Color c{};
-  // With phases from 0 to pi over the range, a maximum of entropy within 0 and 1 is
-  // 1/2 + arctan(c0 + c1 cos + c2 cos 2) / pi. Newton's method with shorter steps where it gets worse.
+  // A maximum of entropy within 0 and 1 is 1/2 + arctan(c0 + c1 cos + c2 cos 2) / pi. Newton's method with
+  // shorter steps where it gets worse.
   const auto evaluate = [&](const Color& at, std::vector<double>* jacobian) {
     for (std::size_t b = 0; b < bands; ++b) {
-      const double phase =
-          std::numbers::pi * (centres_nm[b] - kFirstVisibleNm) / (kLastVisibleNm - kFirstVisibleNm);
-      const Color functions = {1, std::cos(phase), std::cos(2 * phase)};
+      const Color functions = {1, std::cos(phases[b]), std::cos(2 * phases[b])};
       const double x = at[0] + at[1] * functions[1] + at[2] * functions[2];
       out[b] = 0.5 + std::atan(x) / std::numbers::pi;
       if (jacobian == nullptr) continue;
@@ -146,6 +155,7 @@ std::vector<double> least_slope_spectrum(std::span<const Color> weights, const C
     double residual = distance(sums, color);
     for (std::size_t k = 0; k < 3; ++k) right[n + k] = color[k] - sums[k];
     for (std::size_t b = 0; b < n; ++b) residual = std::max(residual, std::abs(right[b]));
+    if (!std::isfinite(residual)) return {};
     if (residual < kTolerance) return out;
     if (!solve_linear(matrix, right)) return {};
     // No argument moves by more than 1 in a step.
@@ -173,28 +183,42 @@ Result<Products> upsampled_products(const PathScene& scene, Upsampling upsamplin
   SPECTILE_ASSIGN(const auto d65, reference_light("D65"));
   SPECTILE_ASSIGN(const auto observer, Projector::reflective(bands, d65.spectrum));
   std::vector<Color> weights;
-  std::vector<double> centres;
+  std::vector<double> phases;
   for (std::size_t b = 0; b < bands.count(); ++b) {
     weights.push_back(times(observer.xyz_to_srgb(), observer.weights()[b]));
-    centres.push_back(bands[b].centre_nm);
+    phases.push_back(moment_phase(bands[b].centre_nm));
   }
+  const auto made_of = [&](const Color& color) {
+    return upsampling == Upsampling::kMoments ? moment_spectrum(phases, weights, color)
+           : upsampling == Upsampling::kMeng  ? smoothest_spectrum(weights, color)
+                                              : least_slope_spectrum(weights, color);
+  };
   for (const Color& given : scene.colors) {
-    std::vector<double> spectrum;
-    // Colours at the edge of the gamut have no such spectrum, or none that is finite: they come nearer to
-    // grey.
     const double grey = std::clamp((given[0] + given[1] + given[2]) / 3, 0.01, 0.99);
-    for (double share = 1e-6; spectrum.empty() && share < 1; share *= 4) {
+    const auto toward_grey = [&](double share) {
       Color color{};
       for (std::size_t k = 0; k < 3; ++k) {
         color[k] = (1 - share) * std::clamp(given[k], 0.0, 1.0) + share * grey;
       }
-      spectrum = upsampling == Upsampling::kMoments ? moment_spectrum(centres, weights, color)
-                 : upsampling == Upsampling::kMeng  ? smoothest_spectrum(weights, color)
-                                                    : least_slope_spectrum(weights, color);
+      return color;
+    };
+    std::vector<double> spectrum;
+    double share = 1e-6;
+    double without = 0;
+    for (; share < 1; without = share, share *= 4) {
+      spectrum = made_of(toward_grey(share));
+      if (!spectrum.empty()) break;
     }
     if (spectrum.empty()) {
-      return make_error(ErrorCode::kBadArgument, "no spectrum of RGB {}, {}, {}", given[0], given[1],
-                        given[2]);
+      spectrum.assign(bands.count(), grey);
+      share = 1;
+    }
+    // The least share, to a tenth of the colour's way.
+    while (without > 0 && share > 1.1 * without) {
+      const double middle = std::sqrt(share * without);
+      auto nearer = made_of(toward_grey(middle));
+      (nearer.empty() ? without : share) = middle;
+      if (!nearer.empty()) spectrum = std::move(nearer);
     }
     out.reflectances.push_back(std::move(spectrum));
   }

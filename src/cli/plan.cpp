@@ -29,7 +29,7 @@ struct PlanArguments {
   std::string input_space;
   ChannelArguments channels;
   NonFinite nonfinite = NonFinite::kStop;
-  int bounces = 1;
+  std::optional<int> bounces;
   Samples sample = Samples::kBands;
   std::optional<std::size_t> count;
   std::optional<double> max_error;
@@ -171,7 +171,7 @@ int run_plan(const PlanArguments& a) {
   catch_signals();
   Scene scene;
   PlannerOptions& o = scene.options;
-  o.bounces = a.bounces;
+  o.bounces = a.bounces.value_or(1);
   o.sampling = a.sample == Samples::kPoints ? BandSampling::kPoints : BandSampling::kAverages;
   o.apart = a.sample == Samples::kApart;
   o.bands = a.count;
@@ -181,9 +181,9 @@ int run_plan(const PlanArguments& a) {
   o.go_on = [] { return !interrupted(); };
   add_lights(a, scene);
   add_reflectances(a, scene);
-  if (o.bounces == 1) {
+  if (!a.bounces) {
     scene.assumed.emplace_back(
-        "assumed that light meets one material; where it meets two or more, errors are larger: --bounces 2");
+        "assumed that light meets one material; errors are larger where it meets more (--bounces 2)");
   }
   print_notes(a.common, scene.notes);
   const auto start = std::chrono::steady_clock::now();
@@ -234,9 +234,10 @@ void add_plan(const Command& app, int& exit) {
   add_observer_option(command, a->observer);
   add_method_option(command, a->method);
   add_rgb_input_options(command, a->input_space, a->channels);
-  command.option("--bounces", a->bounces, "N", kColorGroup, "Reflections that must keep their colour, 1 to 4")
-      .range(1, 4)
-      .show_default();
+  command
+      .option("--bounces", a->bounces, "N", kColorGroup,
+              "Reflections that must keep their colour, 1 to 4; 1 by default")
+      .range(1, 4);
   command.option("--count", a->count, "N", kBandsGroup, "Number of bands, 3 to 64").range(3, 64);
   // Its name until 0.1; elsewhere --bands is a list or a plan.
   command.option("--bands", a->count, "N", kBandsGroup, "").range(3, 64).hidden();

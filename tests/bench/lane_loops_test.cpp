@@ -8,14 +8,15 @@
 #include <random>
 
 #include "bench/representations/linear_system.hpp"
+#include "src/dispatch/dispatch.hpp"
 
 namespace spectile::test {
 namespace {
 
 using namespace measure;  // NOLINT(google-build-using-namespace): the subject of all tests here
 
-TEST(LaneLoops, AreTheirFormulasOnEveryLane) {
-  const LaneLoops& loops = lane_loops();
+/// Compares loops with their formulas in double.
+void check(const LaneLoops& loops) {
   std::mt19937_64 random(1);
   const auto draw = [&](std::size_t n) {
     std::vector<float> out(n);
@@ -84,6 +85,14 @@ TEST(LaneLoops, AreTheirFormulasOnEveryLane) {
                   static_cast<double>(weights[(at * 3 + k) * kLoopLanes + i % kLoopLanes]);
     }
     ASSERT_NEAR(static_cast<double>(xyz[i]), expected, 2e-6) << i;
+  }
+}
+
+TEST(LaneLoops, AreTheirFormulasOnEveryLane) {
+  for (const auto* table : dispatch::available()) {
+    const LaneLoops& loops = lane_loops(table->name);
+    SCOPED_TRACE(loops.flags);
+    check(loops);
   }
 }
 

@@ -21,7 +21,7 @@ struct RgbSums {
     const auto projector = *Projector::reflective(bands, reference_light("D65")->spectrum);
     for (std::size_t b = 0; b < bands.count(); ++b) {
       weights.push_back(times(projector.xyz_to_srgb(), projector.weights()[b]));
-      centres.push_back(bands[b].centre_nm);
+      phases.push_back(moment_phase(bands[b].centre_nm));
     }
   }
   Color of(const std::vector<double>& spectrum) const {
@@ -33,7 +33,7 @@ struct RgbSums {
   }
   Bands bands;
   std::vector<Color> weights;
-  std::vector<double> centres;
+  std::vector<double> phases;
 };
 constexpr Color kColors[] = {
     {0.5, 0.5, 0.5}, {0.7, 0.2, 0.1}, {0.1, 0.4, 0.15}, {0.05, 0.08, 0.5}, {0.9, 0.85, 0.3}};
@@ -73,7 +73,7 @@ TEST(UpsampledSpectra, HaveTheirColorWithinZeroAndOne) {
   const RgbSums sums;
   for (const Color& color : kColors) {
     for (const auto& spectrum :
-         {moment_spectrum(sums.centres, sums.weights, color), smoothest_spectrum(sums.weights, color),
+         {moment_spectrum(sums.phases, sums.weights, color), smoothest_spectrum(sums.weights, color),
           least_slope_spectrum(sums.weights, color)}) {
       ASSERT_EQ(spectrum.size(), 60U);
       const Color found = sums.of(spectrum);
@@ -86,7 +86,7 @@ TEST(UpsampledSpectra, HaveTheirColorWithinZeroAndOne) {
   }
   EXPECT_TRUE(least_slope_spectrum(sums.weights, {1.5, 0, 0}).empty());
   EXPECT_TRUE(smoothest_spectrum(sums.weights, {1.5, 0, 0}).empty());
-  EXPECT_TRUE(moment_spectrum(sums.centres, sums.weights, {1.5, 0, 0}).empty());
+  EXPECT_TRUE(moment_spectrum(sums.phases, sums.weights, {1.5, 0, 0}).empty());
 }
 
 TEST(UpsampledSpectra, LeastSlopesMeetLagrangesConditions) {
@@ -117,13 +117,12 @@ TEST(UpsampledSpectra, MomentsGiveTheSpectrumBack) {
   const RgbSums sums;
   constexpr double kPi = std::numbers::pi;
   for (const Color& color : kColors) {
-    const auto spectrum = moment_spectrum(sums.centres, sums.weights, color);
+    const auto spectrum = moment_spectrum(sums.phases, sums.weights, color);
     // c0 + c1 cos + c2 cos 2 through three bands, whence the signal at every phase.
     std::vector<double> matrix;
     std::vector<double> c;
-    const auto phase = [](double nm) { return kPi * (nm - 360) / 470; };
     for (const std::size_t b : {3, 30, 57}) {
-      const double p = phase(sums.centres[b]);
+      const double p = sums.phases[b];
       matrix.insert(matrix.end(), {1.0, std::cos(p), std::cos(2 * p)});
       c.push_back(std::tan(kPi * (spectrum[b] - 0.5)));
     }
@@ -150,11 +149,11 @@ TEST(UpsampledSpectra, MomentsGiveTheSpectrumBack) {
                       a2 * gamma[static_cast<std::size_t>(l - 2)]);
     }
     for (std::size_t b = 0; b < spectrum.size(); ++b) {
-      const Complex z = std::polar(1.0, phase(sums.centres[b]));
+      const Complex z = std::polar(1.0, sums.phases[b]);
       Complex value = Complex(gamma[0].real(), h[0].imag());
       Complex power = 1;
       for (std::size_t l = 1; l < gamma.size(); ++l) value += 2.0 * gamma[l] * (power *= z);
-      EXPECT_NEAR(std::arg(value) / kPi + 0.5, spectrum[b], 1e-6) << sums.centres[b];
+      EXPECT_NEAR(std::arg(value) / kPi + 0.5, spectrum[b], 1e-6) << b;
     }
   }
 }

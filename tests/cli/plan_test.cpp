@@ -114,6 +114,9 @@ TEST_F(PlanCommand, OneBounceIsSaidToBeAssumed) {
   const auto two = run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0", "--bounces", "2"}));
   ASSERT_EQ(two.exit, 0) << two;
   EXPECT_THAT(two.out, Not(HasSubstr("light meets one material")));
+  const auto given =
+      run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0", "--bounces", "1"}));
+  EXPECT_THAT(given.out, Not(HasSubstr("light meets one material")));
   const auto json = run_tool(plan({"--illuminant", "D65", "--bands", "4", "--folds", "0", "--json"}));
   EXPECT_THAT(test::json_lines(json.out).at(0)["notes"].dump(), HasSubstr("light meets one material"));
 }

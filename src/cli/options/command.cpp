@@ -190,6 +190,7 @@ SPECTILE_OPTION_TARGET(std::uint64_t);
 SPECTILE_OPTION_TARGET(double);
 SPECTILE_OPTION_TARGET(std::optional<float>);
 SPECTILE_OPTION_TARGET(std::optional<double>);
+SPECTILE_OPTION_TARGET(std::optional<int>);
 SPECTILE_OPTION_TARGET(std::optional<std::size_t>);
 SPECTILE_OPTION_TARGET(std::vector<int>);
 SPECTILE_OPTION_TARGET(std::vector<double>);
