@@ -141,7 +141,7 @@ void upsample(const AosTables& t, const float* rgb, float* out, std::size_t n) {
 }
 
 /// The same layout with the loops fused by hand.
-void upsample_fused(const AosTables& t, const float* rgb, float* out, std::size_t n) {
+void upsample_fused(const AosTables& t, const float* rgb, float* __restrict out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i, rgb += 3, out += kSamples) {
     int least = 0;
     int most = 0;
