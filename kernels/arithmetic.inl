@@ -47,6 +47,11 @@ void negate(float* dst, const float* a, std::size_t n) noexcept {
   map1(dst, a, n, [sign_bit](F32 x) { return bits_as<float>(bits_as<std::uint32_t>(x) ^ sign_bit); });
 }
 
+void complement(float* dst, const float* a, std::size_t n) noexcept {
+  const F32 one(1.0F);
+  map1(dst, a, n, [one](F32 x) { return one - x; });
+}
+
 void scale(float* dst, const float* a, float s, std::size_t n) noexcept {
   const F32 factor(s);
   map1(dst, a, n, [factor](F32 x) { return x * factor; });
@@ -70,6 +75,38 @@ void clamp(float* dst, const float* a, float lo, float hi, std::size_t n) noexce
   const F32 low(lo);
   const F32 high(hi);
   map1(dst, a, n, [=](F32 x) { return xsimd::select(x < low, low, xsimd::select(high < x, high, x)); });
+}
+
+/// dst[i] = f(i, lane) in vectors: where a vector's samples lie, and where its lanes' own numbers do.
+template <class F>
+inline void map_lanes(float* dst, std::size_t bands, std::size_t blocks, F f) noexcept {
+  std::size_t i = 0;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t band = 0; band < bands; ++band) {
+      for (std::size_t j = 0; j < kLanes; j += kWidth, i += kWidth) store(dst + i, f(i, block * kLanes + j));
+    }
+  }
+}
+
+void scale_lanes(float* dst, const float* a, const float* f, std::size_t bands, std::size_t blocks) noexcept {
+  map_lanes(dst, bands, blocks,
+            [=](std::size_t i, std::size_t lane) { return load(a + i) * load(f + lane); });
+}
+
+void scale_bands(float* dst, const float* a, const float* s, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t band = 0; band < bands; ++band, dst += kLanes, a += kLanes)
+      scale(dst, a, s[band], kLanes);
+  }
+}
+
+void lerp_lanes(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
+                std::size_t blocks) noexcept {
+  const F32 one(1.0F);
+  map_lanes(dst, bands, blocks, [=](std::size_t i, std::size_t lane) {
+    const F32 weight = load(t + lane);
+    return (one - weight) * load(a + i) + weight * load(b + i);
+  });
 }
 
 /// Folds each lane's samples with `f`, from `start`.

@@ -1,6 +1,7 @@
 // exp and pow: computed in double, rounded to float once.
 #pragma once
 
+#include "kernels/arithmetic.inl"
 #include "kernels/exponential_series.inl"
 #include "kernels/simd/convert.hpp"
 #include "kernels/simd/vector.hpp"
@@ -16,6 +17,19 @@ void exp(float* dst, const float* a, std::size_t n) noexcept {
     const F64 high = exp2_double(hold(widen_high(x) * log2e, kExponentLimit));
     store(dst + i, narrow(low, high));
   }
+}
+
+void transmittance(float* dst, const float* a, const float* t, std::size_t bands,
+                   std::size_t blocks) noexcept {
+  const F64 minus_log2e(-kLog2E);
+  map_lanes(dst, bands, blocks, [=](std::size_t i, std::size_t lane) {
+    const F32 x = load(a + i);
+    const F32 d = load(t + lane);
+    // A product of two floats is exact in double.
+    const F64 low = exp2_double(hold((widen_low(x) * widen_low(d)) * minus_log2e, kExponentLimit));
+    const F64 high = exp2_double(hold((widen_high(x) * widen_high(d)) * minus_log2e, kExponentLimit));
+    return narrow(low, high);
+  });
 }
 
 void pow(float* dst, const float* a, float y, std::size_t n) noexcept {

@@ -80,8 +80,8 @@ struct AosBaseline {
   AosJob jobs[kAosJobs];
   // Spectra of 60 samples.
   AosFunction upsample, upsample_fused, project, luminance, sigmoid;
-  /// Sample by sample; multiply() takes n of its first operand, then n of its second.
-  AosFunction multiply, exp, pow;
+  /// Sample by sample; multiply() and transmittance() take n of their first operand, then n of their second.
+  AosFunction multiply, exp, transmittance, pow;
   // Wavelength by wavelength.
   AosFunction interpolate_even, interpolate_knots, planck, sigmoid_at;
   /// 4 wavelengths and their densities, drawn as the eye sees from one number.

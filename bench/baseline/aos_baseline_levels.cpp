@@ -199,6 +199,10 @@ void exponential(const AosTables& /*tables*/, const float* in, float* out, std::
   for (std::size_t i = 0; i < n; ++i) out[i] = expf(in[i]);
 }
 
+void transmittance(const AosTables& /*tables*/, const float* in, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) out[i] = expf(-(in[i] * in[n + i]));
+}
+
 void power(const AosTables& t, const float* in, float* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) out[i] = powf(in[i], t.exponent);
 }
@@ -276,6 +280,7 @@ constexpr AosBaseline SPECTILE_AOS_BASELINE = {SPECTILE_LEVEL_TEXT,
                                                sigmoid_spectrum,
                                                multiply,
                                                exponential,
+                                               transmittance,
                                                power,
                                                interpolate_even,
                                                interpolate_knots,

@@ -69,6 +69,7 @@ Functions functions_for(std::string_view operation) {
                            {"luminance", b.luminance},
                            {"multiply", b.multiply},
                            {"exp", b.exp},
+                           {"transmittance", b.transmittance},
                            {"pow", b.pow},
                            {"relight, smits-exact", b.jobs[kAosJobs - 1].relight},
                            {"sigmoid: evaluate", b.sigmoid},

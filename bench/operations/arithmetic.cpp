@@ -58,6 +58,19 @@ void add_basic(std::vector<Operation>& to) {
   negate.bitwise = true;
   exact(negate, [](const double* v) { return -v[0]; });
 
+  Operation& complement = sample_operation(to, "complement", 1);
+  complement.operations = 1;
+  complement.run = [](const KernelTable& k, const Arrays& a) { k.complement(a.out(), a.in(), a.n()); };
+  rounded_once(complement, [](const double* v) { return 1 - v[0]; });
+
+  // One sample a lane: with more the lanes' own numbers are read from the first-level cache.
+  Operation& lanes = sample_operation(to, "scale, each lane", 2);
+  lanes.operations = 1;
+  lanes.run = [](const KernelTable& k, const Arrays& a) {
+    k.scale_lanes(a.out(), a.in(0), a.in(1), 1, a.blocks);
+  };
+  rounded_once(lanes, [](const double* v) { return v[0] * v[1]; });
+
   constexpr float kFactor = 0.7F;
   Operation& scale = sample_operation(to, "scale", 1);
   scale.operations = 1;
@@ -98,6 +111,18 @@ void add_compound(std::vector<Operation>& to) {
     scale[0] = (1 - t) * std::abs(v[0]) + t * std::abs(v[1]);
   });
 
+  Operation& lanes = sample_operation(to, "lerp, each lane", 3);
+  lanes.operations = 4;
+  lanes.bound = 3;
+  lanes.run = [](const KernelTable& k, const Arrays& a) {
+    k.lerp_lanes(a.out(), a.in(0), a.in(1), a.in(2), 1, a.blocks);
+  };
+  lanes.error =
+      error_against(1, 3, false, lanes.bound, [](const double* v, double* reference, double* scale) {
+        reference[0] = (1 - v[2]) * v[0] + v[2] * v[1];
+        scale[0] = std::abs((1 - v[2]) * v[0]) + std::abs(v[2] * v[1]);
+      });
+
   Operation& root = sample_operation(to, "sqrt", 1);
   root.divisions = 1;
   root.bottleneck = "the divider, which takes longer for a root than for a division";
@@ -109,15 +134,27 @@ void add_compound(std::vector<Operation>& to) {
 constexpr double kSeriesBound = 1.002;
 
 void add_series(std::vector<Operation>& to) {
+  constexpr const char* kChains =
+      "two chains of dependent multiply-adds in double, and the conversions' shuffles";
   // On doubles: widen, times log2(e), hold (4), round (3), times ln 2, the series, the exponent (2), narrow.
   constexpr double kExp = 2 * (1 + 1 + 4 + 3 + 1 + 2 * kernels::kExpTerms - 1 + 2 + 1);
   Operation& exp = sample_operation(to, "exp", 1);
   exp.operations = kExp;
   exp.fill = uniform_values(1, -10.0F, 10.0F);
-  exp.bottleneck = "two chains of dependent multiply-adds in double, and the conversions' shuffles";
+  exp.bottleneck = kChains;
   exp.run = [](const KernelTable& k, const Arrays& a) { k.exp(a.out(), a.in(), a.n()); };
   rounded_once(exp, [](const double* v) { return std::exp(v[0]); });
   exp.bound = kSeriesBound;
+
+  Operation& transmittance = sample_operation(to, "transmittance", 2);
+  transmittance.operations = kExp + 2 * (1 + 1);  // widens another operand, multiplies
+  transmittance.fill = uniform_values(2, 0.0F, 3.0F);
+  transmittance.bottleneck = kChains;
+  transmittance.run = [](const KernelTable& k, const Arrays& a) {
+    k.transmittance(a.out(), a.in(0), a.in(1), 1, a.blocks);
+  };
+  rounded_once(transmittance, [](const double* v) { return std::exp(-(v[0] * v[1])); });
+  transmittance.bound = kSeriesBound;
 
   Operation& pow = sample_operation(to, "pow", 1);
   // On doubles, beside exp's: exponent and mantissa (5), to around 1 (5), the division's ends (2), its

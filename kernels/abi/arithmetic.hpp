@@ -17,6 +17,7 @@ struct ArithmeticKernels {
   /// b == 0 ? 0 : a / b; b NaN: NaN
   void (*divide_or_zero)(float* dst, const float* a, const float* b, std::size_t n) noexcept;
   void (*negate)(float* dst, const float* a, std::size_t n) noexcept;          ///< sign bit flipped, NaN too
+  void (*complement)(float* dst, const float* a, std::size_t n) noexcept;      ///< 1 - a
   void (*scale)(float* dst, const float* a, float s, std::size_t n) noexcept;  ///< a * s
   /// (a * b) + c, two roundings
   void (*multiply_add)(float* dst, const float* a, const float* b, const float* c, std::size_t n) noexcept;
@@ -29,6 +30,22 @@ struct ArithmeticKernels {
   void (*pow)(float* dst, const float* a, float y, std::size_t n) noexcept;
   /// a < lo ? lo : (hi < a ? hi : a); NaN stays
   void (*clamp)(float* dst, const float* a, float lo, float hi, std::size_t n) noexcept;
+
+  // A batch [blocks][bands][kLanes] with one number a lane, f and t [blocks][kLanes], or one a band, s
+  // [bands].
+  /// a * f
+  void (*scale_lanes)(float* dst, const float* a, const float* f, std::size_t bands,
+                      std::size_t blocks) noexcept;
+  /// a * s
+  void (*scale_bands)(float* dst, const float* a, const float* s, std::size_t bands,
+                      std::size_t blocks) noexcept;
+  /// ((1 - t) * a) + (t * b), 1 - t rounded once
+  void (*lerp_lanes)(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
+                     std::size_t blocks) noexcept;
+  /// e^-(a * t) in double, the product exact, rounded once: within 0.501 ULP, denormals included; 0 *
+  /// infinity: NaN
+  void (*transmittance)(float* dst, const float* a, const float* t, std::size_t bands,
+                        std::size_t blocks) noexcept;
 
   // One number a lane over the bands of a batch [blocks][bands][kLanes]; dst [blocks][kLanes].
   /// smallest sample; NaN ignored; all NaN: +infinity

@@ -13,10 +13,10 @@ namespace {
 
 using kernels::KernelTable;
 
-/// Checks `inputs` against `out`, then runs kernel(table, offset, floats) tile by tile.
+/// Checks `inputs` against `out`, then runs kernel(table, offset, first lane, blocks) tile by tile.
 template <std::size_t N, class Kernel>
-Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const SampledSpectraSpan& out,
-                          const Execution& execution, Kernel kernel) {
+Result<void> in_blocks(const std::array<SampledSpectraView, N>& inputs, const SampledSpectraSpan& out,
+                       const Execution& execution, Kernel kernel) {
   SPECTILE_TRY(shape::aligned(out.data));
   for (const SampledSpectraView& input : inputs) {
     SPECTILE_TRY(shape::same(input, out));
@@ -25,9 +25,20 @@ Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   const std::size_t block_floats = out.bands.count() * kLanesPerBlock;
   tiles::for_blocks(blocks_for(out.lanes), execution, [&](std::size_t first, std::size_t count) {
-    kernel(*table, first * block_floats, count * block_floats);
+    kernel(*table, first * block_floats, first * kLanesPerBlock, count);
   });
   return {};
+}
+
+/// The same with kernel(table, offset, floats).
+template <std::size_t N, class Kernel>
+Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const SampledSpectraSpan& out,
+                          const Execution& execution, Kernel kernel) {
+  const std::size_t block_floats = out.bands.count() * kLanesPerBlock;
+  return in_blocks(inputs, out, execution,
+                   [&](const KernelTable& k, std::size_t at, std::size_t /*lane*/, std::size_t blocks) {
+                     kernel(k, at, blocks * block_floats);
+                   });
 }
 
 /// Runs a kernel of one batch, and below of two, with the parameters that it takes besides.
@@ -45,6 +56,15 @@ Result<void> binary(Kernel which, const SampledSpectraView& a, const SampledSpec
   return element_wise<2>({a, b}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
     (k.*which)(out.data + at, a.data + at, b.data + at, parameters..., n);
   });
+}
+
+/// Runs kernel(table, offset of samples, first lane, blocks) over batches with one number a lane.
+template <std::size_t N, class Kernel>
+Result<void> with_lanes(const std::array<SampledSpectraView, N>& inputs, LanesView numbers,
+                        const SampledSpectraSpan& out, const Execution& execution, Kernel kernel) {
+  SPECTILE_TRY(shape::same_lanes(numbers.lanes, out.lanes));
+  SPECTILE_TRY(shape::aligned(numbers.data));
+  return in_blocks(inputs, out, execution, kernel);
 }
 
 /// Runs kernel(table, first block, blocks, samples) over the lanes of `a` into `out`.
@@ -111,6 +131,31 @@ Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out, c
   return unary(&KernelTable::scale, a, out, execution, factor);
 }
 
+Result<void> scale(SampledSpectraView a, LanesView factor, SampledSpectraSpan out,
+                   const Execution& execution) {
+  return with_lanes<1>({a}, factor, out, execution,
+                       [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
+                         k.scale_lanes(out.data + at, a.data + at, factor.data + lane, out.bands.count(),
+                                       blocks);
+                       });
+}
+
+Result<void> multiply(SampledSpectraView a, std::span<const float> spectrum, SampledSpectraSpan out,
+                      const Execution& execution) {
+  if (spectrum.size() != out.bands.count()) {
+    return make_error(ErrorCode::kBandsMismatch, "a spectrum of {} samples, the batch has {} bands",
+                      spectrum.size(), out.bands.count());
+  }
+  return in_blocks<1>({a}, out, execution,
+                      [&](const KernelTable& k, std::size_t at, std::size_t /*lane*/, std::size_t blocks) {
+                        k.scale_bands(out.data + at, a.data + at, spectrum.data(), spectrum.size(), blocks);
+                      });
+}
+
+Result<void> complement(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
+  return unary(&KernelTable::complement, a, out, execution);
+}
+
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
                           SampledSpectraSpan out, const Execution& execution) {
   return element_wise<3>({a, b, c}, out, execution, [&](const KernelTable& k, std::size_t at, std::size_t n) {
@@ -123,12 +168,30 @@ Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSp
   return binary(&KernelTable::lerp, a, b, out, execution, t);
 }
 
+Result<void> lerp(SampledSpectraView a, SampledSpectraView b, LanesView t, SampledSpectraSpan out,
+                  const Execution& execution) {
+  return with_lanes<2>({a, b}, t, out, execution,
+                       [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
+                         k.lerp_lanes(out.data + at, a.data + at, b.data + at, t.data + lane,
+                                      out.bands.count(), blocks);
+                       });
+}
+
 Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
   return unary(&KernelTable::sqrt, a, out, execution);
 }
 
 Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution) {
   return unary(&KernelTable::exp, a, out, execution);
+}
+
+Result<void> transmittance(SampledSpectraView sigma, LanesView distance, SampledSpectraSpan out,
+                           const Execution& execution) {
+  return with_lanes<1>({sigma}, distance, out, execution,
+                       [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
+                         k.transmittance(out.data + at, sigma.data + at, distance.data + lane,
+                                         out.bands.count(), blocks);
+                       });
 }
 
 Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& execution) {

@@ -50,6 +50,15 @@ Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t
   return spectra;
 }
 
+Result<SampledSpectra> SampledSpectra::clone() const {
+  SampledSpectra out;
+  SPECTILE_ASSIGN(out.buffer_, FloatBuffer::create(buffer_.size()));
+  std::copy_n(buffer_.data(), buffer_.size(), out.buffer_.data());
+  out.lanes_ = lanes_;
+  out.bands_ = bands_;
+  return out;
+}
+
 Result<ScalarLanes> ScalarLanes::create(std::size_t lanes) {
   if (too_many(lanes, 1)) return make_error(ErrorCode::kOutOfMemory, "{} lanes do not fit in memory", lanes);
   ScalarLanes out;

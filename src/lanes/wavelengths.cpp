@@ -85,19 +85,35 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
   return {};
 }
 
-Result<void> terminate_secondary(SampledWavelengths& wavelengths, std::span<const std::uint8_t> lanes_hit) {
-  if (!lanes_hit.empty()) SPECTILE_TRY(shape::same_lanes(lanes_hit.size(), wavelengths.lanes()));
+Result<void> terminate_secondary(SampledWavelengths& wavelengths) {
+  return terminate_secondary(wavelengths, LaneMask(blocks_for(wavelengths.lanes()), ~std::uint64_t{0}));
+}
+
+Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes) {
   const WavelengthSpan density = wavelengths.density.span();
+  if (lanes.size() != blocks_for(density.lanes)) {
+    return make_error(ErrorCode::kSizeMismatch, "the mask has {} words, {} lanes have {}", lanes.size(),
+                      density.lanes, blocks_for(density.lanes));
+  }
+  const LaneMask already = secondary_terminated(wavelengths);
   for (std::size_t i = 0; i < density.lanes; ++i) {
-    if (!lanes_hit.empty() && lanes_hit[i] == 0) continue;
-    bool live = false;
-    for (std::size_t k = 1; k < density.count; ++k) {
-      live = live || density.row(k)[i] != 0;
-      density.row(k)[i] = 0;
-    }
-    if (live) density.row(0)[i] /= static_cast<float>(density.count);
+    const std::size_t word = i / kLanesPerBlock;
+    if (((lanes[word] & ~already[word]) >> (i % kLanesPerBlock) & 1) == 0) continue;
+    for (std::size_t k = 1; k < density.count; ++k) density.row(k)[i] = 0;
+    if (density.count > 1) density.row(0)[i] /= static_cast<float>(density.count);
   }
   return {};
+}
+
+LaneMask secondary_terminated(const SampledWavelengths& wavelengths) {
+  const WavelengthView density = wavelengths.density.view();
+  LaneMask out(blocks_for(density.lanes));
+  for (std::size_t i = 0; density.count > 1 && i < density.lanes; ++i) {
+    bool live = false;
+    for (std::size_t k = 1; k < density.count; ++k) live = live || density.row(k)[i] != 0;
+    out[i / kLanesPerBlock] |= std::uint64_t{!live} << (i % kLanesPerBlock);
+  }
+  return out;
 }
 
 }  // namespace spectile

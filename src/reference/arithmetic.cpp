@@ -34,6 +34,10 @@ void negate(float* dst, const float* a, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) dst[i] = -a[i];
 }
 
+void complement(float* dst, const float* a, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) dst[i] = 1.0F - a[i];
+}
+
 void scale(float* dst, const float* a, float s, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) dst[i] = a[i] * s;
 }
@@ -55,6 +59,23 @@ void clamp(float* dst, const float* a, float lo, float hi, std::size_t n) noexce
   for (std::size_t i = 0; i < n; ++i) {
     const float x = a[i];
     dst[i] = x < lo ? lo : (hi < x ? hi : x);
+  }
+}
+
+void scale_lanes(float* dst, const float* a, const float* f, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * bands * kLanes; ++i)
+    dst[i] = a[i] * f[i / (bands * kLanes) * kLanes + i % kLanes];
+}
+
+void scale_bands(float* dst, const float* a, const float* s, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * bands * kLanes; ++i) dst[i] = a[i] * s[i / kLanes % bands];
+}
+
+void lerp_lanes(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
+                std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * bands * kLanes; ++i) {
+    const float weight = t[i / (bands * kLanes) * kLanes + i % kLanes];
+    dst[i] = (1.0F - weight) * a[i] + weight * b[i];
   }
 }
 

@@ -34,6 +34,15 @@ void exp(float* dst, const float* a, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) dst[i] = static_cast<float>(exp2_double(hold(a[i] * kLog2E)));
 }
 
+void transmittance(float* dst, const float* a, const float* t, std::size_t bands,
+                   std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * bands * kLanes; ++i) {
+    const double product =
+        static_cast<double>(a[i]) * static_cast<double>(t[i / (bands * kLanes) * kLanes + i % kLanes]);
+    dst[i] = static_cast<float>(exp2_double(hold(product * -kLog2E)));
+  }
+}
+
 void pow(float* dst, const float* a, float y, std::size_t n) noexcept {
   const PowExponent exponent(y);
   for (std::size_t i = 0; i < n; ++i) dst[i] = power(a[i], y, exponent);

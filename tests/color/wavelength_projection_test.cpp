@@ -19,8 +19,8 @@ Estimate estimate(const Spectrum& light, WavelengthSampling sampling, std::size_
                   std::size_t lanes = 100000) {
   auto w = drawn_wavelengths(sampling, lanes, count, 21);
   if (terminate) {
-    std::vector<std::uint8_t> hit(lanes);
-    for (std::size_t i = 0; i < lanes; ++i) hit[i] = i % 3 != 0;
+    LaneMask hit(blocks_for(lanes));
+    for (std::size_t i = 0; i < lanes; ++i) hit[i / 64] |= std::uint64_t{i % 3 != 0} << (i % 64);
     EXPECT_TRUE(terminate_secondary(w, hit));
   }
   auto radiance = *WavelengthLanes::create(lanes, count);

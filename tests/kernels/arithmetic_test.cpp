@@ -9,7 +9,7 @@ using kernels::kLanes;
 
 // A name, a lane count and this many functions, all of them tested in the kernels*_test.cpp files: a new one
 // needs its test there before it is counted here.
-constexpr std::size_t kFunctions = 62;
+constexpr std::size_t kFunctions = 67;
 static_assert(sizeof(KernelTable) == 2 * sizeof(void*) + kFunctions * sizeof(void (*)()));
 
 using Unary = void (*KernelTable::*)(float*, const float*, std::size_t) noexcept;
@@ -33,7 +33,8 @@ class Kernels : public KernelTest {
 };
 
 TEST_P(Kernels, UnaryOperationsGiveTheReferencesBits) {
-  for (const Unary f : {&KernelTable::negate, &KernelTable::sqrt, &KernelTable::exp}) {
+  for (const Unary f :
+       {&KernelTable::negate, &KernelTable::complement, &KernelTable::sqrt, &KernelTable::exp}) {
     for (const std::size_t lanes : kSizes) {
       const Floats a = arbitrary_floats(blocks_for(lanes) * kLanes, static_cast<std::uint32_t>(lanes));
       expect_same(a.size(), [&](const KernelTable& t, float* dst) { (t.*f)(dst, a.data(), a.size()); });
@@ -42,7 +43,8 @@ TEST_P(Kernels, UnaryOperationsGiveTheReferencesBits) {
 }
 
 TEST_P(Kernels, UnaryOperationsWorkInPlace) {
-  for (const Unary f : {&KernelTable::negate, &KernelTable::sqrt, &KernelTable::exp}) {
+  for (const Unary f :
+       {&KernelTable::negate, &KernelTable::complement, &KernelTable::sqrt, &KernelTable::exp}) {
     const Floats a = arbitrary_floats(17 * kLanes, 4);
     expect_same(a.size(), [&](const KernelTable& t, float* dst) {
       std::copy_n(a.data(), a.size(), dst);
@@ -127,6 +129,42 @@ TEST_P(Kernels, LerpGivesTheReferencesBits) {
       table.lerp(dst, a.data(), b.data(), t, a.size());
     });
   }
+}
+
+TEST_P(Kernels, OneNumberALaneOrABandGivesTheReferencesBits) {
+  using OfTwo = void (*KernelTable::*)(float*, const float*, const float*, std::size_t, std::size_t) noexcept;
+  for (const OfTwo f : {&KernelTable::scale_lanes, &KernelTable::scale_bands, &KernelTable::transmittance}) {
+    for (const std::size_t bands : kBandCounts) {
+      for (const std::size_t lanes : kSizes) {
+        const std::size_t blocks = blocks_for(lanes);
+        const Floats a = arbitrary_floats(blocks * bands * kLanes, static_cast<std::uint32_t>(lanes + bands));
+        const Floats other = arbitrary_floats(std::max(blocks, bands) * kLanes, 41);
+        expect_same(a.size(), [&](const KernelTable& t, float* dst) {
+          (t.*f)(dst, a.data(), other.data(), bands, blocks);
+        });
+        expect_same(a.size(), [&](const KernelTable& t, float* dst) {  // in place
+          std::copy_n(a.data(), a.size(), dst);
+          (t.*f)(dst, dst, other.data(), bands, blocks);
+        });
+        const Floats b = arbitrary_floats(a.size(), 42);
+        expect_same(a.size(), [&](const KernelTable& t, float* dst) {
+          t.lerp_lanes(dst, a.data(), b.data(), other.data(), bands, blocks);
+        });
+      }
+    }
+  }
+}
+
+TEST_P(Kernels, TransmittanceGivesTheReferencesBitsOverItsWholeRange) {
+  Floats a(2048 * kLanes);
+  Floats t(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] = -90.0F + 200.0F * static_cast<float>(i) / static_cast<float>(a.size());
+    t[i] = 0.5F + static_cast<float>(i % 97) / 96.0F;
+  }
+  expect_same(a.size(), [&](const KernelTable& k, float* dst) {
+    k.transmittance(dst, a.data(), t.data(), 1, a.size() / kLanes);
+  });
 }
 
 TEST_P(Kernels, ExpGivesTheReferencesBitsOverItsWholeRange) {

@@ -71,15 +71,17 @@ TEST(SampleWavelengths, NumbersThatAreNoneGiveNoneAndOthersAreLimited) {
 TEST(TerminateSecondary, OnlyTheFirstCountsAndOnce) {
   auto w = drawn_wavelengths(WavelengthSampling::kUniform, 3, 4, 5);
   const float density = w.density.at(0, 0);
-  const std::uint8_t hit[] = {1, 0, 1};
-  ASSERT_TRUE(terminate_secondary(w, hit));
+  EXPECT_EQ(secondary_terminated(w), LaneMask{0});
+  ASSERT_TRUE(terminate_secondary(w, LaneMask{0b101}));
+  EXPECT_EQ(secondary_terminated(w), LaneMask{0b101});
   EXPECT_EQ(w.density.at(0, 0), density / 4);
   EXPECT_EQ(w.density.at(0, 3), 0);
   EXPECT_EQ(w.density.at(1, 0), density);
   ASSERT_TRUE(terminate_secondary(w));
   EXPECT_EQ(w.density.at(0, 0), density / 4);
   EXPECT_EQ(w.density.at(1, 0), density / 4);
-  EXPECT_FALSE(terminate_secondary(w, std::span(hit, 2)));
+  EXPECT_EQ(secondary_terminated(w), LaneMask{0b111});
+  EXPECT_EQ(terminate_secondary(w, LaneMask{0, 0}).error().code, ErrorCode::kSizeMismatch);
   // A terminated wavelength's radiance does not matter, not even when it is none.
   auto radiance = *WavelengthLanes::create(3, 4);
   for (std::size_t i = 0; i < 12; ++i) radiance.at(i % 3, i / 3) = i < 3 ? 2.0F : kNan;
@@ -214,6 +216,7 @@ TEST(TerminateSecondary, OfOneWavelengthOrOfADeadFirstOneChangesNothing) {
   ASSERT_TRUE(terminate_secondary(one));
   ASSERT_TRUE(terminate_secondary(one));
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one.density.at(i, 0), 2);
+  EXPECT_EQ(secondary_terminated(one), LaneMask{0});
   auto two = *SampledWavelengths::create(1, 2);
   two.density.at(0, 1) = 4;
   ASSERT_TRUE(terminate_secondary(two));

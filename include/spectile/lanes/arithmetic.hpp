@@ -5,11 +5,9 @@
 // kBandsMismatch, kSizeMismatch, and those of active_isa(). Padding lanes are computed too and mean nothing.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/result.hpp>
-#include <vector>
 
 namespace spectile {
 
@@ -33,16 +31,32 @@ Result<void> negate(SampledSpectraView a, SampledSpectraSpan out, const Executio
 /// out = a * factor.
 Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out,
                    const Execution& execution = {});
+/// out = a * the lane's own factor: a cosine, one over a density. Shapes: factor [lanes].
+Result<void> scale(SampledSpectraView a, LanesView factor, SampledSpectraSpan out,
+                   const Execution& execution = {});
+/// out = a * one spectrum for all lanes. Shapes: spectrum [bands], any alignment.
+Result<void> multiply(SampledSpectraView a, std::span<const float> spectrum, SampledSpectraSpan out,
+                      const Execution& execution = {});
+/// out = 1 - a.
+Result<void> complement(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = (a * b) + c, two roundings.
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
                           SampledSpectraSpan out, const Execution& execution = {});
 /// out = (1 - t) * a + t * b; exactly a at t = 0 and b at t = 1 for finite samples.
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
                   const Execution& execution = {});
+/// The same with the lane's own t. Shapes: t [lanes].
+Result<void> lerp(SampledSpectraView a, SampledSpectraView b, LanesView t, SampledSpectraSpan out,
+                  const Execution& execution = {});
 /// out = square root of a, correctly rounded; below 0 gives NaN.
 Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = e to the a, error below 0.501 ULP on the whole range.
 Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
+/// out = e^-(sigma * distance), the share of light that passes a medium with the extinction sigma over the
+/// lane's own distance; error below 0.501 ULP on the whole range, since the product is not rounded. 0 times
+/// infinity gives NaN. Shapes: distance [lanes]. Units: of sigma one over those of distance.
+Result<void> transmittance(SampledSpectraView sigma, LanesView distance, SampledSpectraSpan out,
+                           const Execution& execution = {});
 /// out = a to the exponent, error below 0.501 ULP; special values as C's pow.
 Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out,
                  const Execution& execution = {});
@@ -60,9 +74,6 @@ Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execu
 /// out[lane] = average over wavelength: samples weighted with their bands' widths; relative error at most
 /// (bands + 1) * 2^-24 for samples of one sign. Errors: kBadArgument for bands that overlap.
 Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
-
-/// One bit a lane: bit i % 64 of word i / 64; the last word's bits beyond the lanes are 0.
-using LaneMask = std::vector<std::uint64_t>;
 
 /// Lanes whose samples are all 0 (of either sign).
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution = {});

@@ -7,6 +7,7 @@
 #include <spectile/float_buffer.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
+#include <vector>
 
 namespace spectile {
 
@@ -28,6 +29,10 @@ struct SampledSpectraView {
   float at(std::size_t lane, std::size_t band) const noexcept {
     return data[((lane / kLanesPerBlock) * bands.count() + band) * kLanesPerBlock + lane % kLanesPerBlock];
   }
+  /// A range of the lanes without a copy: whole blocks, or up to the last lane. No bounds check.
+  SampledSpectraView range(std::size_t first, std::size_t count) const {
+    return {data + first * bands.count(), count, bands};
+  }
 };
 
 /// Writable view of a batch; shapes as in SampledSpectraView.
@@ -36,6 +41,10 @@ struct SampledSpectraSpan {
   std::size_t lanes = 0;
   Bands bands;
   operator SampledSpectraView() const { return {data, lanes, bands}; }
+  /// As SampledSpectraView::range().
+  SampledSpectraSpan range(std::size_t first, std::size_t count) const {
+    return {data + first * bands.count(), count, bands};
+  }
 };
 
 /// An owning batch of `lanes` sampled spectra on common bands.
@@ -49,6 +58,9 @@ class SampledSpectra {
   /// Errors: kBandsMismatch when the count of values differs from that of bands; kOutOfMemory.
   static Result<SampledSpectra> broadcast(const Bands& bands, std::size_t lanes,
                                           std::span<const float> values);
+
+  /// A copy of the batch. Errors: kOutOfMemory.
+  Result<SampledSpectra> clone() const;
 
   std::size_t lanes() const noexcept { return lanes_; }
   std::size_t blocks() const noexcept { return blocks_for(lanes_); }
@@ -132,6 +144,9 @@ class ColorLanes {
   std::size_t lanes_ = 0;
   std::size_t stride_ = 0;
 };
+
+/// One bit a lane: bit i % 64 of word i / 64; the last word's bits beyond the lanes are 0.
+using LaneMask = std::vector<std::uint64_t>;
 
 /// How a batch operation is run. The result never depends on it.
 struct Execution {

@@ -1,8 +1,6 @@
 // Sampled wavelengths in batches: drawing and terminating them.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
@@ -75,11 +73,13 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
                                 double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
                                 const Execution& execution = {});
 
-/// Terminates all but the first wavelength of the lanes whose `lanes_hit` is not 0 (of all, where it is
-/// empty), as at a dispersive surface: their densities become 0 and the first one's is divided by K, so that
-/// sums over the K stay unbiased. Lanes that are terminated already stay as they are. Shapes: lanes_hit
-/// [lanes] or empty. Errors: kSizeMismatch.
-Result<void> terminate_secondary(SampledWavelengths& wavelengths,
-                                 std::span<const std::uint8_t> lanes_hit = {});
+/// Terminates all but the first wavelength of every lane, or of those of a mask, as at a dispersive surface:
+/// their densities become 0 and the first one's is divided by K, so that sums over the K stay unbiased. Lanes
+/// that are terminated already stay as they are. Errors: kSizeMismatch for a mask of other lanes.
+Result<void> terminate_secondary(SampledWavelengths& wavelengths);
+Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes);
+
+/// Lanes that have only their first wavelength left; none where K is 1.
+LaneMask secondary_terminated(const SampledWavelengths& wavelengths);
 
 }  // namespace spectile

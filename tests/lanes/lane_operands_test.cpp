@@ -1,0 +1,132 @@
+// Arithmetic with one number a lane or one spectrum for all lanes; ranges of lanes, copies, and masks.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <spectile/lanes/arithmetic.hpp>
+
+#include "tests/support/lanes.hpp"
+
+namespace spectile::test {
+namespace {
+
+constexpr std::size_t kLaneCounts[] = {1, 64, 65, 1000};
+
+/// Batches with all kinds of numbers, and one number a lane.
+struct Operands {
+  explicit Operands(std::size_t lanes) {
+    const Bands bands = *Bands::uniform(400, 700, 60);
+    a = *SampledSpectra::create(bands, lanes);
+    b = *SampledSpectra::create(bands, lanes);
+    out = *SampledSpectra::create(bands, lanes);
+    numbers = *ScalarLanes::create(lanes);
+    const Floats drawn = arbitrary_floats(kLanesPerBlock * (2 * bands.count() + 1) * blocks_for(lanes), 5);
+    std::size_t next = 0;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      numbers[lane] = drawn[next++];
+      for (std::size_t band = 0; band < bands.count(); ++band) {
+        a.set(lane, band, drawn[next++]);
+        b.set(lane, band, drawn[next++]);
+      }
+    }
+  }
+  /// Every sample of the result is what f makes of those of a and b and of the lane's number.
+  template <class F>
+  void expect_result(F f) const {
+    for (std::size_t lane = 0; lane < a.lanes(); ++lane) {
+      for (std::size_t band = 0; band < a.bands().count(); ++band) {
+        const float want = f(a.at(lane, band), b.at(lane, band), numbers[lane], band);
+        const float got = out.at(lane, band);
+        ASSERT_TRUE(got == want || (std::isnan(got) && std::isnan(want)))
+            << "lane " << lane << ", band " << band << ": " << got << ", not " << want;
+      }
+    }
+  }
+  SampledSpectra a, b, out;
+  ScalarLanes numbers;
+};
+
+TEST(LaneOperands, AreWhatOneLaneAfterTheOtherGives) {
+  for (const std::size_t lanes : kLaneCounts) {
+    for (const Execution& execution : {Execution{1, 64}, Execution{2, 128}, Execution{}}) {
+      Operands o(lanes);
+      ASSERT_TRUE(scale(o.a.view(), o.numbers.view(), o.out.span(), execution));
+      o.expect_result([](float a, float, float f, std::size_t) { return a * f; });
+      ASSERT_TRUE(lerp(o.a.view(), o.b.view(), o.numbers.view(), o.out.span(), execution));
+      o.expect_result([](float a, float b, float t, std::size_t) {
+        const float rest = 1 - t;
+        const float first = rest * a;
+        return first + t * b;
+      });
+      ASSERT_TRUE(complement(o.a.view(), o.out.span(), execution));
+      o.expect_result([](float a, float, float, std::size_t) { return 1 - a; });
+      const std::vector<float> spectrum = {0.5F, 3, -0.0F, kInf, 1e-30F};
+      ASSERT_TRUE(multiply(o.a.view(), spectrum, o.out.span(), execution));
+      o.expect_result([&](float a, float, float, std::size_t band) { return a * spectrum[band]; });
+      // The double result rounded once: none lies near enough to a middle to be rounded the other way.
+      ASSERT_TRUE(transmittance(o.a.view(), o.numbers.view(), o.out.span(), execution));
+      o.expect_result([](float a, float, float t, std::size_t) {
+        return static_cast<float>(std::exp(-(static_cast<double>(a) * static_cast<double>(t))));
+      });
+    }
+  }
+}
+
+TEST(LaneOperands, OfOtherLanesOrBandsAreRefused) {
+  Operands o(100);
+  const auto few = *ScalarLanes::create(99);
+  EXPECT_EQ(scale(o.a.view(), few.view(), o.out.span()).error().code, ErrorCode::kSizeMismatch);
+  EXPECT_EQ(lerp(o.a.view(), o.b.view(), few.view(), o.out.span()).error().code, ErrorCode::kSizeMismatch);
+  EXPECT_EQ(transmittance(o.a.view(), few.view(), o.out.span()).error().code, ErrorCode::kSizeMismatch);
+  const std::vector<float> short_one(4, 1.0F);
+  EXPECT_EQ(multiply(o.a.view(), short_one, o.out.span()).error().code, ErrorCode::kBandsMismatch);
+  EXPECT_EQ(complement(o.a.view(), SampledSpectra::create(Bands(), 100)->span()).error().code,
+            ErrorCode::kBandsMismatch);
+  EXPECT_EQ(scale(o.a.view(), LanesView{o.numbers.view().data + 1, 100}, o.out.span()).error().code,
+            ErrorCode::kBadArgument);
+}
+
+TEST(Transmittance, FallsToZeroAndOneIsLeftOverNoDistance) {
+  auto sigma = *SampledSpectra::constant(*Bands::uniform(400, 700, 300), 5, 2.0F);
+  auto distance = *ScalarLanes::create(5);
+  const float distances[] = {0, 0.25F, 1e30F, kInf, -1};
+  for (std::size_t i = 0; i < 5; ++i) distance[i] = distances[i];
+  ASSERT_TRUE(transmittance(sigma.view(), distance.view(), sigma.span()));
+  EXPECT_EQ(sigma.at(0, 0), 1);
+  EXPECT_EQ(sigma.at(1, 0), static_cast<float>(std::exp(-0.5)));
+  EXPECT_EQ(sigma.at(2, 0), 0);
+  EXPECT_EQ(sigma.at(3, 0), 0);
+  EXPECT_EQ(sigma.at(4, 0), static_cast<float>(std::exp(2.0)));
+}
+
+TEST(SampledSpectraRange, IsAPartOfTheBatchAndWritesThere) {
+  Operands o(200);
+  const SampledSpectra before = *o.a.clone();
+  // The second and third block: 64 to 191.
+  ASSERT_TRUE(complement(o.a.view().range(64, 128), o.out.span().range(64, 128)));
+  for (std::size_t lane = 0; lane < 200; ++lane) {
+    for (std::size_t band = 0; band < 5; ++band) {
+      const float want = lane >= 64 && lane < 192 ? 1 - o.a.at(lane, band) : 0.0F;
+      const float got = o.out.at(lane, band);
+      ASSERT_TRUE(got == want || (std::isnan(got) && std::isnan(want))) << lane;
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(before.at(lane, band)),
+                std::bit_cast<std::uint32_t>(o.a.at(lane, band)));
+    }
+  }
+  // The rest, whose last block is padded.
+  EXPECT_TRUE(complement(o.a.view().range(128, 72), o.out.span().range(128, 72)));
+  EXPECT_EQ(o.a.view().range(64, 128).at(3, 2), o.a.at(67, 2));
+}
+
+TEST(SampledSpectraClone, IsAnotherBatchWithTheSameSamples) {
+  auto a = *SampledSpectra::constant(*Bands::uniform(400, 700, 100), 70, 0.25F);
+  const auto copy = *a.clone();
+  EXPECT_EQ(copy.lanes(), 70U);
+  EXPECT_EQ(copy.bands(), a.bands());
+  EXPECT_TRUE(*equal(a.view(), copy.view()));
+  a.set(69, 2, 1);
+  EXPECT_EQ(copy.at(69, 2), 0.25F);
+}
+
+}  // namespace
+}  // namespace spectile::test
