@@ -34,6 +34,7 @@ inline constexpr double kAtanhSeries[kAtanhTerms] = {1.0,        1.0 / 3.0,  1.0
 // The same in float. 1.5 * 2^23 rounds magnitudes below 2^22 to the nearest integer; the series of (e^t - 1 -
 // t) / t^2 up to t^5 leaves a quarter of a rounding of e^t - 1 for |t| <= ln(2)/2.
 inline constexpr float kRoundMagicFloat = 12582912.0F;
+inline constexpr std::uint32_t kRoundMagicFloatBits = 0x4B400000U;
 inline constexpr float kLn2Float = 0.693147181F;
 inline constexpr std::size_t kPlanckTerms = 6;
 inline constexpr float kPlanckSeries[kPlanckTerms] = {1.0F / 2,   1.0F / 6,   1.0F / 24,
@@ -43,6 +44,19 @@ inline constexpr float kPlanckLimit = 252.0F;
 inline constexpr float kPlanckUnit = 1024.0F;  // nm
 // Longest wavelength in that unit: far beyond where there is no light left, and divisions by it are no zeros.
 inline constexpr float kPlanckLongest = 0x1p90F;
+
+// e^r in float. ln 2 in two parts, the first of nine bits, whose product with an exponent is exact; the
+// series of (e^r - 1 - r) / r^2, of the least largest error for |r| <= ln(2)/2, leaves a twentieth of 2^-24
+// of e^r.
+inline constexpr float kLog2EFloat = 1.44269504F;
+inline constexpr float kLn2HighFloat = 0.693359375F;
+inline constexpr float kLn2LowFloat = -2.12194440e-4F;
+inline constexpr std::size_t kExpFloatTerms = 5;
+inline constexpr float kExpFloatSeries[kExpFloatTerms] = {0x1.fffffcp-2F, 0x1.55549p-3F, 0x1.5558f4p-5F,
+                                                          0x1.123a6cp-7F, 0x1.6a2352p-10F};
+inline constexpr float kExpFloatLimit = 150.0F;  // beyond the range of float both ways
+// The upper twelve bits of a mantissa: products of such halves are exact.
+inline constexpr std::uint32_t kUpperHalf = 0xFFFFF000U;
 
 /// An exponent y and its results for special values of the base, as C's pow defines them (C17 7.12.7.4,
 /// F.10.4.4).

@@ -147,14 +147,17 @@ void add_series(std::vector<Operation>& to) {
   exp.bound = kSeriesBound;
 
   Operation& transmittance = sample_operation(to, "transmittance", 2);
-  transmittance.operations = kExp + 2 * (1 + 1);  // widens another operand, multiplies
+  // The product's scales and halves (6 + 2 + 2 + 5), its limits and choices (4 + 2), the reduction (3 + 5),
+  // the series, the powers of two and the scaling (7 + 2).
+  transmittance.operations = 6 + 2 + 2 + 5 + 4 + 2 + 3 + 5 + 2 * (kernels::kExpFloatTerms - 1) + 4 + 7 + 2;
   transmittance.fill = uniform_values(2, 0.0F, 3.0F);
-  transmittance.bottleneck = kChains;
   transmittance.run = [](const KernelTable& k, const Arrays& a) {
     k.transmittance(a.out(), a.in(0), a.in(1), 1, a.blocks);
   };
-  rounded_once(transmittance, [](const double* v) { return std::exp(-(v[0] * v[1])); });
-  transmittance.bound = kSeriesBound;
+  transmittance.bound = 2 * 1.1;  // in u of the result, of which an ULP is two at most
+  transmittance.error = error_against(
+      1, 1, true, transmittance.bound,
+      [](const double* v, double* reference, double* /*scale*/) { reference[0] = std::exp(-(v[0] * v[1])); });
 
   Operation& pow = sample_operation(to, "pow", 1);
   // On doubles, beside exp's: exponent and mantissa (5), to around 1 (5), the division's ends (2), its

@@ -42,8 +42,8 @@ struct ArithmeticKernels {
   /// ((1 - t) * a) + (t * b), 1 - t rounded once
   void (*lerp_lanes)(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
                      std::size_t blocks) noexcept;
-  /// e^-(a * t) in double, the product exact, rounded once: within 0.501 ULP, denormals included; 0 *
-  /// infinity: NaN
+  /// e^-(a * t) by the product in two parts, the upper halves' exact one and the rest, and a series in float:
+  /// within 1.1 ULP on the whole range, denormals included. 0 * infinity: NaN
   void (*transmittance)(float* dst, const float* a, const float* t, std::size_t bands,
                         std::size_t blocks) noexcept;
 

@@ -53,8 +53,8 @@ Result<void> sqrt(SampledSpectraView a, SampledSpectraSpan out, const Execution&
 /// out = e to the a, error below 0.501 ULP on the whole range.
 Result<void> exp(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 /// out = e^-(sigma * distance), the share of light that passes a medium with the extinction sigma over the
-/// lane's own distance; error below 0.501 ULP on the whole range, since the product is not rounded. 0 times
-/// infinity gives NaN. Shapes: distance [lanes]. Units: of sigma one over those of distance.
+/// lane's own distance; error below 1.1 ULP on the whole range, however large the product. 0 times infinity
+/// gives NaN. Shapes: distance [lanes]. Units: of sigma one over those of distance.
 Result<void> transmittance(SampledSpectraView sigma, LanesView distance, SampledSpectraSpan out,
                            const Execution& execution = {});
 /// out = a to the exponent, error below 0.501 ULP; special values as C's pow.
