@@ -13,7 +13,7 @@
 
 namespace spectile::measure {
 
-Result<std::vector<Bands>> planned_bands_for(const std::string& light, std::vector<std::size_t> counts,
+Result<std::vector<Bands>> planned_bands_for(const std::string& light, const std::vector<std::size_t>& counts,
                                              int bounces) {
   SPECTILE_ASSIGN(const auto wide, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 5));
   SPECTILE_ASSIGN(auto upsampler, Upsampler::create(Method::kSigmoid, Quantity::kReflectance, wide));

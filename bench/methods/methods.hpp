@@ -52,7 +52,7 @@ inline constexpr const char* kFilmJob =
 
 /// Bands planned for a light, for the spectra that sigmoids make of colours of sRGB: none of the measured
 /// reflectances that errors are over. `counts`: of bands. Errors: as make_plan().
-Result<std::vector<Bands>> planned_bands_for(const std::string& light, std::vector<std::size_t> counts,
+Result<std::vector<Bands>> planned_bands_for(const std::string& light, const std::vector<std::size_t>& counts,
                                              int bounces = 1);
 
 /// Every method for one light. Errors: as those that make them.

@@ -126,6 +126,7 @@ std::vector<Interval> tree_leaves(const PathScene& scene, std::size_t count) {
     nodes.push_back(b);
   }
   std::vector<Interval> out;
+  out.reserve(nodes.size());
   for (const Node& n : nodes) out.push_back(n.leaf);
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return out;

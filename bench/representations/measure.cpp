@@ -15,7 +15,7 @@ namespace {
 /// Adds one that multiplies coefficients, where making its coefficients went well.
 Result<void> add(std::vector<Representation>& to, const PathScene& scene, std::string name,
                  std::string source, const Result<Products>& products) {
-  SPECTILE_TRY(products);
+  if (!products) return products.error();
   SPECTILE_ASSIGN(auto made, multiplied(scene, std::move(name), std::move(source), *products));
   to.push_back(std::move(made));
   return {};
@@ -149,6 +149,7 @@ Result<std::vector<RepresentationSpeed>> measure_representations(const MethodSce
     }
   }
   std::vector<Timed*> work;
+  work.reserve(timed.size());
   for (Timed& t : timed) work.push_back(&t);
   time_in_turn(work, timing);
   std::vector<RepresentationSpeed> out;

@@ -94,16 +94,18 @@ std::vector<double> moment_spectrum(std::span<const double> phases, std::span<co
     std::vector<double> move = {color[0] - sums[0], color[1] - sums[1], color[2] - sums[2]};
     if (!solve_linear(jacobian, move)) return {};
     double length = 1;
-    for (; length > 1e-6; length /= 2) {
+    bool nearer = false;
+    while (!nearer && length > 1e-6) {
       const Color next = {c[0] + length * move[0], c[1] + length * move[1], c[2] + length * move[2]};
       const Color found = evaluate(next, nullptr);
-      if (distance(found, color) < distance(sums, color)) {
+      nearer = distance(found, color) < distance(sums, color);
+      if (nearer) {
         c = next;
         sums = found;
-        break;
       }
+      length /= 2;
     }
-    if (length <= 1e-6) return {};
+    if (!nearer) return {};
   }
   evaluate(c, nullptr);
   if (distance(sums, color) > kTolerance) return {};
@@ -202,18 +204,16 @@ Result<Products> upsampled_products(const PathScene& scene, Upsampling upsamplin
       }
       return color;
     };
-    std::vector<double> spectrum;
+    std::vector<double> spectrum = made_of(toward_grey(1e-6));
     double share = 1e-6;
     double without = 0;
-    for (; share < 1; without = share, share *= 4) {
+    while (spectrum.empty() && share < 0.25) {
+      without = share;
+      share *= 4;
       spectrum = made_of(toward_grey(share));
-      if (!spectrum.empty()) break;
     }
-    if (spectrum.empty()) {
-      spectrum.assign(bands.count(), grey);
-      share = 1;
-    }
-    // The least share, to a tenth of the colour's way.
+    if (spectrum.empty()) spectrum.assign(bands.count(), grey);
+    // The least share, to a tenth.
     while (without > 0 && share > 1.1 * without) {
       const double middle = std::sqrt(share * without);
       auto nearer = made_of(toward_grey(middle));
