@@ -227,7 +227,7 @@ void add_bench(const Command& app, int& exit) {
                  "Measured reflectances to evaluate errors on; the ColorChecker by default");
   constexpr const char* kMeasured = "Measurements";
   command.flag("--quick", a->quick, kMeasured,
-               "Half a minute: the fastest instruction set, fewer methods and rounds");
+               "One or two minutes: the fastest instruction set, fewer methods and rounds");
   const Option stress = command.flag("--stress", a->stress, kMeasured, "Also run the long stress test");
   command.flag("--stress-only", a->stress_only, kMeasured, "Run only the stress test").excludes(stress);
   command.flag("--cache-only", a->cache_only, kMeasured, "Measure in the second-level cache, not in memory");

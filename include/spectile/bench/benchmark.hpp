@@ -161,7 +161,7 @@ struct BenchmarkReport {
 };
 
 struct BenchmarkOptions {
-  bool quick = false;                  ///< half a minute rather than minutes
+  bool quick = false;                  ///< one or two minutes rather than six
   bool memory = true;                  ///< also of what lies in memory, not in the caches
   bool speed = true;                   ///< limits, operations, methods, representations
   bool stress = false;                 ///< also the long form of the numbers' stress test
