@@ -29,11 +29,7 @@ struct DrawnLanes {
   FloatBuffer product, weights, xyz;
 
   void follow(const kernels::KernelTable& table, std::size_t of) {
-    const float* in = bounces[0].data();
-    for (std::size_t bounce = 1; bounce < of; ++bounce) {
-      table.multiply(product.data(), in, bounces[bounce].data(), kPaths * wavelengths);
-      in = product.data();
-    }
+    const float* const in = multiply_bounces(table, bounces, of, product, kPaths * wavelengths);
     lane_loops(table.name).weigh(xyz.data(), in, weights.data(), wavelengths, blocks_for(kPaths));
   }
 };

@@ -17,6 +17,16 @@ Result<FloatBuffer> bounce_lanes(const PathScene& scene, const std::vector<std::
   return out;
 }
 
+const float* multiply_bounces(const kernels::KernelTable& table, const FloatBuffer* bounces, std::size_t of,
+                              FloatBuffer& product, std::size_t floats) {
+  const float* in = bounces[0].data();
+  for (std::size_t bounce = 1; bounce < of; ++bounce) {
+    table.multiply(product.data(), in, bounces[bounce].data(), floats);
+    in = product.data();
+  }
+  return in;
+}
+
 Result<ColorOutput> ColorOutput::create(const std::vector<std::array<double, 3>>& weights) {
   ColorOutput out;
   out.count = weights.size();

@@ -26,6 +26,10 @@ struct ColorOutput {
   std::vector<Xyz> colors() const;
 };
 
+/// Product of the first `of` bounces, `floats` each: in `product`, or the only one as it lies.
+const float* multiply_bounces(const kernels::KernelTable& table, const FloatBuffer* bounces, std::size_t of,
+                              FloatBuffer& product, std::size_t floats);
+
 /// Runs and colours of lanes with follow(table, bounces) and an `output`.
 template <class Lanes>
 Representation follow_lanes(const PathScene& scene, std::shared_ptr<Lanes> lanes, std::size_t coefficients) {

@@ -15,12 +15,7 @@ struct ProductLanes {
   ColorOutput output;
 
   void follow(const kernels::KernelTable& table, std::size_t of) {
-    const float* in = bounces[0].data();
-    for (std::size_t bounce = 1; bounce < of; ++bounce) {
-      table.multiply(product.data(), in, bounces[bounce].data(), kPaths * output.count);
-      in = product.data();
-    }
-    output.project(table, in);
+    output.project(table, multiply_bounces(table, bounces, of, product, kPaths * output.count));
   }
 };
 
