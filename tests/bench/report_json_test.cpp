@@ -30,6 +30,14 @@ TEST(BenchmarkJson, HoldsEveryEntry) {
   EXPECT_EQ(json["machine"]["second_level_cache"], full().machine.second_level_cache);
 }
 
+TEST(BenchmarkJson, NamesThePublicationOfARepresentation) {
+  BenchmarkReport report;
+  report.representations.resize(1);
+  report.representations[0].source = "Peercy 1993";
+  EXPECT_EQ(Json::parse(benchmark_to_json(report))["representations"][0]["source"], "Peercy 1993");
+  EXPECT_THAT(benchmark_to_html(report), HasSubstr("<td class=\"words\">Peercy 1993</td>"));
+}
+
 TEST(BenchmarkJson, ComesBackBitForBit) {
   const Json json = Json::parse(benchmark_to_json(full()));
   for (std::size_t i = 0; i < full().methods.size(); ++i) {
