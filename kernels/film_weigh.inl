@@ -85,8 +85,7 @@ class Weighing {
     alignas(64) float c[kWidth];
     store(c, color);
     for (std::size_t q = 0; q < kQuads; ++q) seen_[(i + q) % kLanes] = c[4 * q + 1];
-    const Mask beyond = ~(xsimd::abs(color) <= F32(range_));
-    beyond_ = beyond_ | beyond;
+    beyond_ = beyond_ | ~(xsimd::abs(color) <= F32(range_));
   }
 
   float* quads_;
@@ -103,12 +102,13 @@ class Weighing {
 
 inline std::int32_t fault_at(const FilmSamples& samples, std::size_t i) noexcept {
   Faults faults;
+  const std::size_t at = samples.place(i);
   for (std::size_t k = 0; k < samples.count; ++k) {
-    const float pdf = samples.density[k][i];
+    const float pdf = samples.density[k][at];
     if (pdf == 0.0F) continue;
     faults.scan(pdf);
-    faults.scan(samples.lambda_nm[k][i]);
-    faults.scan(samples.radiance[k][i] / pdf);
+    faults.scan(samples.lambda_nm[k][at]);
+    faults.scan(samples.radiance[k][at] / pdf);
     faults.negative = faults.negative || pdf < 0.0F;
   }
   return faults.reason();
@@ -131,13 +131,14 @@ inline void weigh_wavelengths(Weighing to, std::int32_t* reasons, const FilmSamp
   // No sum of rows is larger than this times the sum of the ratios, all roundings included.
   const float largest = curves.largest * factor * 1.001F;
   for (std::size_t i = 0; i < samples.n; i += kWidth) {
+    const std::size_t at = samples.place(i);
     F32 everything = zero;
     F32 least = zero;
     F32 size = zero;
     for (std::size_t k = 0; k < count; ++k) {
-      const F32 lambda = load_any(samples.lambda_nm[k] + i);
-      const F32 pdf = load_any(samples.density[k] + i);
-      const F32 weighted = xsimd::select(pdf == zero, zero, divide(load_any(samples.radiance[k] + i), pdf));
+      const F32 lambda = load_any(samples.lambda_nm[k] + at);
+      const F32 pdf = load_any(samples.density[k] + at);
+      const F32 weighted = xsimd::select(pdf == zero, zero, divide(load_any(samples.radiance[k] + at), pdf));
       const F32 t = lambda - F32(curves.first_nm);
       const Mask inside = (t >= zero) & (t <= intervals);
       const F32 safe = xsimd::select(inside, t, zero);
@@ -197,6 +198,7 @@ void film_weigh_bands(const FilmQuads& out, const FilmSamples& samples, const fl
   alignas(64) float colors[3][kLanesAtOnce];
   alignas(64) float turned[4 * kLanesAtOnce];
   for (std::size_t i = 0; i < samples.n; i += kLanesAtOnce) {
+    const std::size_t at = samples.place(i);
     F32 sums[3][kGroup];
     F32 strange = zero;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -209,7 +211,7 @@ void film_weigh_bands(const FilmQuads& out, const FilmSamples& samples, const fl
       }
       for (std::size_t b = first; b < end; ++b) {
         for (std::size_t g = 0; g < kGroup; ++g) {
-          const F32 sample = load_any(radiance[b] + i + g * kWidth);
+          const F32 sample = load_any(radiance[b] + at + g * kWidth);
           for (std::size_t c = 0; c < 3; ++c) run[c][g] = run[c][g] + F32(weights[4 * b + c]) * sample;
           strange = strange + sample * zero;
         }
@@ -228,7 +230,7 @@ void film_weigh_bands(const FilmQuads& out, const FilmSamples& samples, const fl
       quad_transpose(color[0], color[1], color[2], color[3]);
       for (std::size_t j = 0; j < 4; ++j) {
         Faults faults;
-        for (std::size_t b = 0; faulty && b < bands; ++b) faults.scan(radiance[b][i + lane + j]);
+        for (std::size_t b = 0; faulty && b < bands; ++b) faults.scan(radiance[b][at + lane + j]);
         reasons[i + lane + j] = faults.reason();
         quad_store(turned + 4 * (lane + j), color[j]);
       }
@@ -242,8 +244,7 @@ void film_weigh_bands(const FilmQuads& out, const FilmSamples& samples, const fl
 /// Reasons of the lanes whose bits are set, where they have none yet.
 inline void raise(std::int32_t* reasons, std::uint64_t beyond) noexcept {
   for (std::size_t lane = 0; lane < kWidth; ++lane) {
-    const bool is = ((beyond >> lane) & 1U) != 0;
-    if (is && reasons[lane] == kFilmAccepted) reasons[lane] = kFilmBeyondRange;
+    if (((beyond >> lane) & 1U) != 0 && reasons[lane] == kFilmAccepted) reasons[lane] = kFilmBeyondRange;
   }
 }
 
@@ -258,9 +259,10 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   alignas(64) float by[kWidth];
   alignas(64) float sizes[kWidth];
   for (std::size_t i = 0; i < samples.n; i += kWidth) {
+    const std::size_t place = samples.place(i);
     F32 most(0.0F);
     for (std::size_t b = 0; b < bands; ++b) {
-      most = max(xsimd::abs(load_any(radiance[b] + i)), most);  // NaN ignored
+      most = max(xsimd::abs(load_any(radiance[b] + place)), most);  // NaN ignored
     }
     const F32 w = weight == nullptr ? F32(1.0F) : load_any(weight + i);
     // A product grows with its factors, so the largest one tells for all.
@@ -277,7 +279,7 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
         for (std::size_t j = 0; j < 4; ++j) {
           row[j] = quad_all(0.0F);
           if (b + j >= bands) continue;
-          Quad sample = quad_load(radiance[b + j] + i + lane);
+          Quad sample = quad_load(radiance[b + j] + place + lane);
           if (clamps) sample = quad_clamped(sample, quad_load(sizes + lane), limits.maximum);
           row[j] = quad_multiply(sample, factors);
         }
@@ -308,23 +310,24 @@ void film_hits(const FilmHits& out, const FilmSamples& given, const BucketTable&
   alignas(64) float values[kWidth];
   alignas(64) float weights[kWidth];
   for (std::size_t i = 0; i < n; i += kWidth) {
+    const std::size_t at = samples.place(i);
     const F32 w = samples.weight == nullptr ? F32(1.0F) : load_any(samples.weight + i);
     F32 most = zero;
     if (clamps) {
       for (std::size_t k = 0; k < samples.count; ++k) {
-        const Mask dead = load_any(samples.density[k] + i) == zero;
-        most = max(xsimd::select(dead, zero, xsimd::abs(load_any(samples.radiance[k] + i))), most);
+        const Mask dead = load_any(samples.density[k] + at) == zero;
+        most = max(xsimd::select(dead, zero, xsimd::abs(load_any(samples.radiance[k] + at))), most);
       }
     }
     std::uint64_t beyond = 0;
     for (std::size_t k = 0; k < samples.count; ++k) {
-      const F32 pdf = load_any(samples.density[k] + i);
+      const F32 pdf = load_any(samples.density[k] + at);
       const Mask dead = pdf == zero;
       const F32 u = w * divide(F32(reference), pdf);
-      F32 radiant = load_any(samples.radiance[k] + i);
+      F32 radiant = load_any(samples.radiance[k] + at);
       if (clamps) radiant = xsimd::select(most > maximum, divide(radiant, most) * maximum, radiant);
       const F32 value = radiant * u;
-      const I32 bucket = find_band(table, load_any(samples.lambda_nm[k] + i));
+      const I32 bucket = find_band(table, load_any(samples.lambda_nm[k] + at));
       bits_as<std::int32_t>(xsimd::select(dead, bits_as<float>(I32(-1)), bits_as<float>(bucket)))
           .store_unaligned(out.band + k * n + i);
       const Mask fits =

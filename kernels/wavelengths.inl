@@ -3,10 +3,10 @@
 
 #include "kernels/abi/wavelengths.hpp"
 #include "kernels/exponential_series.inl"
-#include "kernels/sigmoid_point.inl"
 #include "kernels/simd/convert.hpp"
 #include "kernels/simd/tables.hpp"
 #include "kernels/simd/vector.hpp"
+#include "kernels/upsampling/sigmoid_point.inl"
 
 namespace spectile::kernels {
 namespace {
@@ -122,27 +122,32 @@ void gaussians(float* dst, const float* lambda_nm, const GaussianLobe* lobes, st
   }
 }
 
+/// The sigmoid at a wavelength limited to its range; a NaN is taken for some wavelength there. Table:
+/// SigmoidSpectrum or SigmoidLanes.
+template <class Table>
+inline F32 sigmoid_of(const Table& table, const Coefficients& a, F32 low, F32 high, F32 lambda) noexcept {
+  const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
+  if (table.form == SigmoidForm::kFunctions) {
+    const EvenPlace place = place_in(table.q, xsimd::select(is_nan(lambda), low, held));
+    Functions at;
+    at.p = value_at(table.p.pairs, place);
+    at.q = value_at(table.q.pairs, place);
+    return sigmoid_sample(a, at);
+  }
+  Quadratic at;
+  at.q = divide(held - F32(550.0F), F32(150.0F));
+  return sigmoid_sample(a, at);
+}
+
 void sigmoid_at(float* dst, const float* lambda_nm, const SigmoidSpectrum& spectrum, std::size_t n) noexcept {
-  const Coefficients a = {{F32(spectrum.c[0]), F32(spectrum.c[1]), F32(spectrum.c[2])}};
-  const F32 low(spectrum.lowest_nm);
-  const F32 high(spectrum.highest_nm);
-  const F32 scale(spectrum.scale);
+  const SigmoidSpectrum s = spectrum;  // a copy that stores leave alone
+  const Coefficients a = {{F32(s.c[0]), F32(s.c[1]), F32(s.c[2])}};
+  const F32 low(s.lowest_nm);
+  const F32 high(s.highest_nm);
+  const F32 scale(s.scale);
   for (std::size_t i = 0; i < n; i += kWidth) {
     const F32 lambda = load(lambda_nm + i);
-    const F32 held = xsimd::select(lambda < low, low, xsimd::select(lambda > high, high, lambda));
-    F32 sample;
-    if (spectrum.form == SigmoidForm::kFunctions) {
-      const EvenPlace place = place_in(spectrum.q, xsimd::select(is_nan(lambda), low, held));
-      Functions at;
-      at.p = value_at(spectrum.p.pairs, place);
-      at.q = value_at(spectrum.q.pairs, place);
-      sample = sigmoid_sample(a, at);
-    } else {
-      Quadratic at;
-      at.q = divide(held - F32(550.0F), F32(150.0F));
-      sample = sigmoid_sample(a, at);
-    }
-    store(dst + i, or_nan(lambda, sample * scale));
+    store(dst + i, or_nan(lambda, sigmoid_of(s, a, low, high, lambda) * scale));
   }
 }
 
@@ -157,23 +162,29 @@ inline void spread(F32 u, std::size_t count, Put put) noexcept {
   }
 }
 
-void even_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
-                      const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+/// Where lane i's own sample k lies in blocks of `count` samples a lane.
+inline std::size_t own_sample(std::size_t i, std::size_t k, std::size_t count) noexcept {
+  return ((i / kLanes) * count + k) * kLanes + i % kLanes;
+}
+
+void even_wavelengths(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                      std::size_t count, std::size_t blocks) noexcept {
   const F32 flat(1.0F / d.range_nm);
-  for (std::size_t i = 0; i < n; i += kWidth) {
+  for (std::size_t i = 0; i < blocks * kLanes; i += kWidth) {
     spread(load(u + i), count, [&](std::size_t k, F32 v) {
-      store(lambda_nm[k] + i, F32(d.first_nm) + v * F32(d.range_nm));
-      store(density[k] + i, flat);
+      const std::size_t at = own_sample(i, k, count);
+      store(lambda_nm + at, F32(d.first_nm) + v * F32(d.range_nm));
+      store(density + at, flat);
     });
   }
 }
 
-void visible_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
-                         const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
+void visible_wavelengths(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                         std::size_t count, std::size_t blocks) noexcept {
   // atanh(y) = log2((1 + y) / (1 - y)) * ln(2) / 2
   const F64 per_log2(0.5 * kLn2 * d.per_steepness_nm);
   const F64 one(1.0);
-  for (std::size_t i = 0; i < n; i += kWidth) {
+  for (std::size_t i = 0; i < blocks * kLanes; i += kWidth) {
     spread(load(u + i), count, [&](std::size_t k, F32 v) {
       const auto tanh_at = [&](F64 w) { return F64(d.from) - w * F64(d.by); };
       const F32 lambda = in_double(v, [&](F64 w) {
@@ -184,22 +195,24 @@ void visible_wavelengths(float* const* lambda_nm, float* const* density, const f
         const F64 y = tanh_at(w);
         return F64(d.peak) * (one - y * y);
       });
-      store(lambda_nm[k] + i, or_nan(v, lambda));
-      store(density[k] + i, pdf);
+      const std::size_t at = own_sample(i, k, count);
+      store(lambda_nm + at, or_nan(v, lambda));
+      store(density + at, pdf);
     });
   }
 }
 
-void project_wavelengths(float* const dst[3], const WavelengthRows& samples, const EvenTable curves[3],
-                         float factor, std::size_t n) noexcept {
+void project_wavelengths(float* const dst[3], const WavelengthBlocks& samples, const EvenTable curves[3],
+                         float factor, std::size_t blocks) noexcept {
   const F32 zero(0.0F);
-  for (std::size_t i = 0; i < n; i += kWidth) {
+  for (std::size_t i = 0; i < blocks * kLanes; i += kWidth) {
     F32 sums[3] = {zero, zero, zero};
     for (std::size_t k = 0; k < samples.count; ++k) {
-      const F32 lambda = load(samples.lambda_nm[k] + i);
-      const F32 pdf = load(samples.density[k] + i);
+      const std::size_t at = own_sample(i, k, samples.count);
+      const F32 lambda = load(samples.lambda_nm + at);
+      const F32 pdf = load(samples.density + at);
       const Mask live = differ(pdf, zero);
-      const F32 weight = divide(load(samples.values[k] + i), pdf);
+      const F32 weight = divide(load(samples.values + at), pdf);
       const EvenPlace place = place_in(curves[0], lambda);
       for (std::size_t c = 0; c < 3; ++c) {
         const F32 value = or_nan(lambda, value_at(curves[c].pairs, place));

@@ -41,6 +41,11 @@ class Films {
     std::copy(out->pool.u.begin(), out->pool.u.end(), u.span().data);
     out->u_ = std::move(u);
     SPECTILE_ASSIGN(out->drawn_, SampledWavelengths::create(kSamplePool, kPoolWavelengths));
+    SPECTILE_ASSIGN(out->radiance_, SampledSpectra::create(out->drawn_.axis(), kSamplePool));
+    for (std::size_t i = 0; i < kSamplePool; ++i) {
+      for (std::size_t k = 0; k < kPoolWavelengths; ++k)
+        out->radiance_.at(i, k) = out->pool.radiance[k * out->pool.stride + i];
+    }
     SPECTILE_TRY(out->clear());
     return out;
   }
@@ -84,11 +89,8 @@ class Films {
     return [this](const ArrivalOrder& order, std::size_t i, std::size_t n) {
       static_cast<void>(sample_wavelengths(WavelengthSampling::kVisible, u_.view(), drawn_, kFirstVisibleNm,
                                            kLastVisibleNm, {1}));
-      const auto rows = [](const WavelengthView& v) { return RowsView{v.data, v.count, v.stride}; };
-      WavelengthSamples with = samples(order, i, n);
-      with.lambda_nm = rows(drawn_.lambda_nm.view());
-      with.density = rows(drawn_.density.view());
-      static_cast<void>(engine->add(with));
+      static_cast<void>(engine->add({{&order.x[i], n}, {&order.y[i], n}, {}}, radiance_.view().range(0, n),
+                                    drawn_.view().range(0, n)));
     };
   }
   Add plain_add() {
@@ -119,6 +121,7 @@ class Films {
   AosFilm aos_{};
   ScalarLanes u_;
   SampledWavelengths drawn_;
+  SampledSpectra radiance_;
 };
 
 enum class Comparison { kFilm, kPlainSums, kDrawing, kBuckets };

@@ -105,18 +105,15 @@ Result<void> add_bands(const MethodScene& scene, const Bands& bands, const std::
   return {};
 }
 
-void add_draw(Film& film, const Positions& at, const SampledWavelengths& w, const WavelengthLanes& radiance) {
-  const auto rows = [](const WavelengthView& v) { return RowsView{v.data, v.count, v.stride}; };
-  static_cast<void>(film.add(WavelengthSamples{
-      at.x, at.y, {}, rows(radiance.view()), rows(w.lambda_nm.view()), rows(w.density.view())}));
-}
-
 Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& methods) {
   struct Drawn {
     FilmState film;
     std::vector<SampledWavelengths> draws;
-    std::vector<WavelengthLanes> radiance;
+    std::vector<SampledSpectra> radiance;
     std::size_t next = 0;
+    void add(std::size_t draw) {
+      static_cast<void>(film.film->add({film.at.x, film.at.y, {}}, radiance[draw], draws[draw]));
+    }
   };
   auto d = std::make_shared<Drawn>();
   SPECTILE_ASSIGN(d->film.film, Film::create(film_options()));
@@ -140,7 +137,7 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
     }
     SPECTILE_ASSIGN(auto drawn, SampledWavelengths::create(kMethodLanes, kWavelengths));
     SPECTILE_TRY(sample_wavelengths(WavelengthSampling::kVisible, u.view(), drawn));
-    SPECTILE_ASSIGN(auto radiance, WavelengthLanes::create(kMethodLanes, kWavelengths));
+    SPECTILE_ASSIGN(auto radiance, SampledSpectra::create(drawn.axis(), kMethodLanes));
     for (std::size_t i = 0; i < kMethodLanes; ++i) {
       const auto& r = (*scene.reflectances)[i % scene.reflectances->size()].spectrum;
       for (std::size_t k = 0; k < kWavelengths; ++k) {
@@ -156,7 +153,7 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
       kDrawsPerPixel * 3 * kWavelengths * sizeof(float));
   method.per_lane = static_cast<double>(kDrawsPerPixel);
   method.run = [d] {
-    add_draw(*d->film.film, d->film.at, d->draws[d->next], d->radiance[d->next]);
+    d->add(d->next);
     d->next = (d->next + 1) % kDrawsPerPixel;
   };
   // Evaluated in a film of its own, which each sample has reached once.
@@ -166,7 +163,7 @@ Result<void> add_wavelengths(const MethodScene& scene, std::vector<MethodRun>& m
       if (!fresh) return Xyz{};
       d->film.film = *std::move(fresh);
       for (std::size_t i = 0; i < kDrawsPerPixel; ++i) {
-        add_draw(*d->film.film, d->film.at, d->draws[i], d->radiance[i]);
+        d->add(i);
       }
       pixels = pixel_reader(std::shared_ptr<FilmState>(d, &d->film));
     }

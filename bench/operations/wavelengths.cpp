@@ -72,7 +72,7 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
 
   Operation& project = wavelength_operation(to, "project wavelengths to XYZ");
   project.item = "sample of 4 wavelengths";
-  project.in = {3 * kWavelengths, 1};
+  project.in = {3, kWavelengths};
   project.out = {3, 1};
   project.operations = kWavelengths * (8 + 1 + 3 * 7) + 3;
   project.divisions = kWavelengths;
@@ -80,10 +80,9 @@ void add_tables(std::vector<Operation>& to, const Spectrum& spectrum) {
   project.bound = kWavelengths + 6;
   project.fill = fill_path;
   project.run = [=](const KernelTable& k, const Arrays& a) {
-    const PathRows path(a);
     const EvenTable curves[3] = {even_table(*pairs), even_table(*pairs), even_table(*pairs)};
-    k.project_wavelengths(a.out3().data(), {path.values, path.lambda, path.density, kWavelengths}, curves,
-                          0.25F, a.n());
+    k.project_wavelengths(a.out3().data(), {a.in(0), a.in(1), a.in(2), kWavelengths}, curves, 0.25F,
+                          a.blocks);
   };
   const Oracle color = [=](const double* v, double* reference, double* scale) {
     double sum = 0;
@@ -224,11 +223,10 @@ void add_draws(std::vector<Operation>& to) {
     Operation& op =
         wavelength_operation(to, visible ? "draw 4 wavelengths, visible" : "draw 4 wavelengths, even");
     op.item = "draw";
-    op.out = {2 * kWavelengths, 1};
+    op.out = {2, kWavelengths};
     op.fill = uniform_values(1, 0.0F, 1.0F);
     op.operations = 2 + kWavelengths * (5 + 2);
-    op.bottleneck =
-        "selections, of which AVX2's take three micro-operations, and eight rows of stores at once";
+    op.bottleneck = "selections, of which AVX2's take three micro-operations, and stores";
     if (visible) {
       // In double: y (2), the logarithm of a ratio, twice a product and a sum.
       op.operations += kWavelengths * 2 * (2 + 2 + 15 + 2 * kernels::kAtanhTerms - 1 + 6);
@@ -237,13 +235,8 @@ void add_draws(std::vector<Operation>& to) {
     }
     op.bound = 2;
     op.run = [=](const KernelTable& k, const Arrays& a) {
-      float* lambda[kWavelengths];
-      float* density[kWavelengths];
-      for (std::size_t i = 0; i < kWavelengths; ++i) {
-        lambda[i] = a.out(i);
-        density[i] = a.out(kWavelengths + i);
-      }
-      (visible ? k.visible_wavelengths : k.even_wavelengths)(lambda, density, a.in(), d, kWavelengths, a.n());
+      (visible ? k.visible_wavelengths : k.even_wavelengths)(a.out(0), a.out(1), a.in(), d, kWavelengths,
+                                                             a.blocks);
     };
     op.error = error_against(
         2 * kWavelengths, 0, false, op.bound, [=](const double* v, double* reference, double* scale) {

@@ -63,14 +63,17 @@ struct FilmLimits {
 };
 
 /// Radiance of n samples at `count` wavelengths of their own, or on `count` bands (lambda_nm, density null).
-/// Rows of n at any address.
+/// Rows at any address, in pieces of kLanes.
 struct FilmSamples {
   const float* const* radiance = nullptr;   ///< [count]
   const float* const* lambda_nm = nullptr;  ///< [count]
   const float* const* density = nullptr;    ///< [count]
   const float* weight = nullptr;            ///< [n]; null for 1
   std::size_t count = 0;
-  std::size_t n = 0;  ///< a multiple of kLanes
+  std::size_t n = 0;                  ///< a multiple of kLanes
+  std::size_t piece_stride = kLanes;  ///< floats from a row's piece to its next one
+  /// Of sample i in its row.
+  std::size_t place(std::size_t i) const noexcept { return (i / kLanes) * piece_stride + i % kLanes; }
 };
 
 /// Colours of samples; undefined where the reason is not 0.

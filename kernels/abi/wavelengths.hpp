@@ -48,6 +48,38 @@ struct SigmoidSpectrum {
   EvenTable q = {};
 };
 
+/// The centres of bands, between which spectra are linear; beyond the outer ones they keep the value there.
+struct CentreTable {
+  float first_nm = 0;
+  float last_nm = 0;
+  std::int32_t intervals = 1;  ///< at least 1, also of a single band
+  float per_nm = 0;            ///< intervals a nanometre, where the centres are even
+  // Where they are not: searched for as in KnotTable.
+  const float* knots = nullptr;      ///< [intervals + 1 + 2^halvings]; null for even centres
+  const float* per_width = nullptr;  ///< [intervals]: 1 over the interval, 0 where that is 0
+  const std::int32_t* start = nullptr;
+  float buckets_per_nm = 0;
+  std::int32_t buckets = 0;
+  std::int32_t halvings = 0;
+};
+
+/// Smits basis spectra at both ends of each interval.
+struct MixtureTable {
+  const float* ends = nullptr;  ///< [intervals][kSmitsRow][2]
+  float lowest = 0;             ///< samples below become it; -infinity for none
+};
+
+/// Sigmoids of lanes at any wavelength, which is clamped to their range.
+struct SigmoidLanes {
+  const float* const* c = nullptr;  ///< three planes of coefficients
+  const float* scale = nullptr;     ///< a factor a lane; null for 1
+  float lowest_nm = 0;
+  float highest_nm = 0;
+  SigmoidForm form = SigmoidForm::kQuadratic;
+  EvenTable p = {};  ///< of kFunctions; these cover the range
+  EvenTable q = {};
+};
+
 /// A distribution of wavelengths over [first, first + range): even, or as the inverse of the eye's
 /// sensitivity tanh(steepness * (lambda - centre)).
 struct WavelengthDensity {
@@ -57,11 +89,11 @@ struct WavelengthDensity {
   double peak;                         ///< visible: density at the centre
 };
 
-/// Lanes with `count` wavelengths of their own.
-struct WavelengthRows {
-  const float* const* values;     ///< [count] rows of n
-  const float* const* lambda_nm;  ///< likewise
-  const float* const* density;    ///< likewise
+/// Lanes with `count` wavelengths of their own. Shapes: [block][count][64].
+struct WavelengthBlocks {
+  const float* values;
+  const float* lambda_nm;
+  const float* density;
   std::size_t count;
 };
 
@@ -87,19 +119,36 @@ struct WavelengthKernels {
   void (*sigmoid_at)(float* dst, const float* lambda_nm, const SigmoidSpectrum& spectrum,
                      std::size_t n) noexcept;
 
-  // Sampled wavelengths: v = clamp(u, 0, 1 - 2^-24), u[k] = v + k / count, less 1 from 1 on; u NaN: NaN.
+  // Spectra of lanes' colours at their own wavelengths, dst and lambda_nm [block][count][64]; lambda NaN:
+  // NaN.
+  //   held = clamp(lambda, first, last), i: its interval
+  //   part = min(1, (held - first) * per_nm - i), or min(1, (held - knot[i]) * per_width[i])
+  //   sample = a + part * (b - a), a and b the samples at the interval's ends
+  /// a, b: the sample of smits_blocks
+  void (*mixtures_at)(float* dst, const float* const rgb[3], const MixtureTable& table,
+                      const CentreTable& centres, const float* lambda_nm, std::size_t count,
+                      std::size_t blocks) noexcept;
+  /// a, b: the sample of grid_blocks; the table's nodes lie over the bands whose centres these are
+  void (*grid_at)(float* dst, const GridSpectra& spectra, const CentreTable& centres, const float* lambda_nm,
+                  std::size_t count, std::size_t blocks) noexcept;
+  /// sigmoid_at() with the lane's coefficients, then times its scale
+  void (*sigmoids_at)(float* dst, const SigmoidLanes& sigmoids, const float* lambda_nm, std::size_t count,
+                      std::size_t blocks) noexcept;
+
+  // Sampled wavelengths [block][count][64]: v = clamp(u, 0, 1 - 2^-24), u[k] = v + k / count, less 1 from 1
+  // on; u NaN: NaN.
   /// lambda[k] = first + (u[k] * range), density[k] = 1 / range
-  void (*even_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
-                           const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  void (*even_wavelengths)(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                           std::size_t count, std::size_t blocks) noexcept;
   /// y = from - (u[k] * by), lambda[k] = centre - atanh(y) * per_steepness, density[k] = peak * (1 - y * y),
   /// in double, rounded once. Source: Radziszewski, Boryczko, Alda, An Improved Technique for Full Spectral
   /// Rendering, Journal of WSCG 17, 2009.
-  void (*visible_wavelengths)(float* const* lambda_nm, float* const* density, const float* u,
-                              const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept;
+  void (*visible_wavelengths)(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                              std::size_t count, std::size_t blocks) noexcept;
   /// dst[c] = factor * sum(k) curve[c](lambda[k]) * (values[k] / density[k]), curves as in interpolate_even
   /// density 0: adds nothing, whatever the value. curves: three tables of the same wavelengths
-  void (*project_wavelengths)(float* const dst[3], const WavelengthRows& samples, const EvenTable curves[3],
-                              float factor, std::size_t n) noexcept;
+  void (*project_wavelengths)(float* const dst[3], const WavelengthBlocks& samples, const EvenTable curves[3],
+                              float factor, std::size_t blocks) noexcept;
 };
 
 }  // namespace spectile::kernels

@@ -130,21 +130,24 @@ struct Pair {
   F32 first, second;
 };
 
-/// base[2 * index] and base[2 * index + 1], fetched together.
-inline Pair gather_pair(const float* base, I32 index) {
+/// base[kStep * index] and the float after it, fetched together; kStep: 1, or 2 for a table of pairs.
+template <int kStep>
+inline Pair gather_two(const float* base, I32 index) {
 #if defined(SPECTILE_KERNEL_AVX512)
+  constexpr int kBytes = kStep * 4;
   const auto* const pairs = reinterpret_cast<const double*>(base);
   const __m512i at = index;
-  const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(at), pairs, 8));
-  const __m512 high = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_extracti64x4_epi64(at, 1), pairs, 8));
+  const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(at), pairs, kBytes));
+  const __m512 high = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_extracti64x4_epi64(at, 1), pairs, kBytes));
   const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
   const __m512i odd = _mm512_add_epi32(even, _mm512_set1_epi32(1));
   return {_mm512_permutex2var_ps(low, even, high), _mm512_permutex2var_ps(low, odd, high)};
 #elif defined(SPECTILE_KERNEL_AVX2)
+  constexpr int kBytes = kStep * 4;
   const auto* const pairs = reinterpret_cast<const double*>(base);
   const __m256i at = index;
-  const __m256 low = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(at), 8));
-  const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(at, 1), 8));
+  const __m256 low = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(at), kBytes));
+  const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(at, 1), kBytes));
   // The shuffles leave the middle halves swapped.
   const auto in_order = [](__m256 v) {
     return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(v), 0xD8));
@@ -156,11 +159,16 @@ inline Pair gather_pair(const float* base, I32 index) {
   alignas(64) float second[kWidth];
   index.store_aligned(at);
   for (std::size_t i = 0; i < kWidth; ++i) {
-    first[i] = base[2 * at[i]];
-    second[i] = base[2 * at[i] + 1];
+    first[i] = base[kStep * at[i]];
+    second[i] = base[kStep * at[i] + 1];
   }
   return {F32::load_aligned(first), F32::load_aligned(second)};
 #endif
+}
+
+/// Entry `index` of a table of pairs.
+inline Pair gather_pair(const float* base, I32 index) {
+  return gather_two<2>(base, index);
 }
 
 }  // namespace

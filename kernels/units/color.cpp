@@ -1,7 +1,7 @@
 // Projection, colour transforms, gamut and conversions: one unit, compiled once per instruction set.
 #include "kernels/colorimetry.inl"
 #include "kernels/convert.inl"
-#include "kernels/gamut.inl"
+#include "kernels/upsampling/gamut.inl"
 
 namespace spectile::kernels::SPECTILE_ISA {
 

@@ -1,9 +1,9 @@
 // Smits mixtures, grids and sigmoids: one unit, compiled once per instruction set.
-#include "kernels/grid.inl"
-#include "kernels/sigmoid.inl"
-#include "kernels/sigmoid_continuation.inl"
-#include "kernels/sigmoid_search.inl"
-#include "kernels/smits.inl"
+#include "kernels/upsampling/grid.inl"
+#include "kernels/upsampling/sigmoid.inl"
+#include "kernels/upsampling/sigmoid_continuation.inl"
+#include "kernels/upsampling/sigmoid_search.inl"
+#include "kernels/upsampling/smits.inl"
 
 namespace spectile::kernels::SPECTILE_ISA {
 

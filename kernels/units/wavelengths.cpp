@@ -1,6 +1,8 @@
 // Spectra at single wavelengths: one unit, compiled once per instruction set.
 #include "kernels/wavelengths.inl"
 
+#include "kernels/upsampling/own_wavelengths.inl"
+
 namespace spectile::kernels::SPECTILE_ISA {
 
 extern const WavelengthKernels wavelengths;
@@ -10,6 +12,9 @@ constexpr WavelengthKernels wavelengths = {
     .planck = planck,
     .gaussians = gaussians,
     .sigmoid_at = sigmoid_at,
+    .mixtures_at = mixtures_at,
+    .grid_at = grid_at,
+    .sigmoids_at = sigmoids_at,
     .even_wavelengths = even_wavelengths,
     .visible_wavelengths = visible_wavelengths,
     .project_wavelengths = project_wavelengths,

@@ -203,12 +203,12 @@ std::array<double, 3> Projector::white() const noexcept {
 
 Result<void> project(const Projector& projector, SampledSpectraView spectra, ColorSpan color,
                      const Execution& execution) {
-  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.axis));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, color.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_TRY(shape::aligned(color));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const std::size_t bands = spectra.bands.count();
+  const std::size_t bands = spectra.axis.count();
   tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     float* const dst[3] = {color.c[0] + at, color.c[1] + at, color.c[2] + at};
@@ -219,12 +219,12 @@ Result<void> project(const Projector& projector, SampledSpectraView spectra, Col
 
 Result<void> luminance(const Projector& projector, SampledSpectraView spectra, LanesSpan y,
                        const Execution& execution) {
-  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_bands("the projector", projector.bands(), spectra.axis));
   SPECTILE_TRY(shape::same_lanes(spectra.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_TRY(shape::aligned(y.data));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const std::size_t bands = spectra.bands.count();
+  const std::size_t bands = spectra.axis.count();
   tiles::for_blocks(spectra.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     table->weighted_sum(y.data + at, spectra.data + at * bands, ProjectorAccess::luminance_weights(projector),

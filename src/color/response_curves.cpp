@@ -5,7 +5,6 @@
 #include "src/base/errors.hpp"
 #include "src/color/kernel_tables.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/lanes/row_pointers.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 
@@ -15,13 +14,6 @@ namespace {
 constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
 constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
 constexpr std::int32_t kIntervals = kLastNm - kFirstNm;
-
-Result<void> same_shape(const WavelengthView& a, const WavelengthView& b) {
-  SPECTILE_TRY(shape::same_lanes(a.lanes, b.lanes));
-  if (a.count == b.count) return {};
-  return make_error(ErrorCode::kSizeMismatch, "one batch has {} wavelengths a lane, the other {}", a.count,
-                    b.count);
-}
 
 }  // namespace
 
@@ -51,14 +43,14 @@ Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& cur
   return out;
 }
 
-Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
-                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& execution) {
-  const WavelengthView lambda = wavelengths.lambda_nm.view();
-  const WavelengthView density = wavelengths.density.view();
-  SPECTILE_TRY(same_shape(radiance, lambda));
-  SPECTILE_TRY(same_shape(lambda, density));
+Result<void> project(const ResponseCurves& curves, SampledSpectraView radiance,
+                     const SampledWavelengthsView& wavelengths, ColorSpan color, const Execution& execution) {
+  SPECTILE_TRY(shape::same(radiance, wavelengths.lambda_nm));
+  SPECTILE_TRY(shape::same(radiance, wavelengths.density));
   SPECTILE_TRY(shape::same_lanes(radiance.lanes, color.lanes));
   SPECTILE_TRY(shape::aligned(radiance.data));
+  SPECTILE_TRY(shape::aligned(wavelengths.lambda_nm.data));
+  SPECTILE_TRY(shape::aligned(wavelengths.density.data));
   SPECTILE_TRY(shape::aligned(color));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   kernels::EvenTable tables[3];
@@ -66,15 +58,14 @@ Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
     tables[c] = {ResponseCurvesAccess::table(curves) + c * 2 * kIntervals, static_cast<float>(kFirstNm), 1.0F,
                  kIntervals};
   }
-  const float factor = 1.0F / static_cast<float>(radiance.count);
-  tiles::for_blocks(blocks_for(radiance.lanes), execution, [&](std::size_t first, std::size_t count) {
+  const std::size_t k = radiance.axis.count();
+  tiles::for_blocks(radiance.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
-    const rows::RowPointers<const float> values(radiance, at);
-    const rows::RowPointers<const float> places(lambda, at);
-    const rows::RowPointers<const float> densities(density, at);
     float* const to[3] = {color.c[0] + at, color.c[1] + at, color.c[2] + at};
-    table->project_wavelengths(to, {values.data(), places.data(), densities.data(), radiance.count}, tables,
-                               factor, count * kLanesPerBlock);
+    table->project_wavelengths(
+        to,
+        {radiance.data + k * at, wavelengths.lambda_nm.data + k * at, wavelengths.density.data + k * at, k},
+        tables, 1.0F / static_cast<float>(k), count);
   });
   return {};
 }

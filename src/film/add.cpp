@@ -8,6 +8,7 @@
 #include "src/film/entries.hpp"
 #include "src/film/scratch.hpp"
 #include "src/film/state.hpp"
+#include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 
 namespace spectile {
@@ -25,17 +26,37 @@ static_assert(kChunk % kLanes == 0);
 /// One over the range of visible wavelengths, about: an even density makes it the weight of a hit.
 constexpr float kReferenceDensity = 1.0F / 512;
 
+/// Rows of samples in pieces of a block's lanes.
+struct PieceRows {
+  const float* data = nullptr;
+  std::size_t count = 0;
+  std::size_t stride = 0;             ///< floats from row to row
+  std::size_t piece_stride = kLanes;  ///< floats from a row's piece to its next one
+  bool padded = false;                ///< the last piece is whole in memory
+};
+
+PieceRows rows_of(const RowsView& rows) {
+  return {rows.data, rows.count, rows.stride, kLanes, false};
+}
+
+PieceRows rows_of(const SampledSpectraView& batch) {
+  return {batch.data, batch.axis.count(), kLanes, batch.axis.count() * kLanes, true};
+}
+
 /// A batch as the kernels take it, from one sample on.
 struct Batch {
   const float* x = nullptr;
   const float* y = nullptr;
   const float* weight = nullptr;  ///< null for 1
-  RowsView radiance, lambda_nm, density;
+  PieceRows radiance, lambda_nm, density;
 };
 
-void rows_from(const RowsView& rows, std::size_t first, std::vector<const float*>& out) {
+/// From sample `first` on, the first of a block.
+void rows_from(const PieceRows& rows, std::size_t first, std::vector<const float*>& out) {
   out.resize(rows.count);
-  for (std::size_t k = 0; k < rows.count; ++k) out[k] = rows.data + k * rows.stride + first;
+  for (std::size_t k = 0; k < rows.count; ++k) {
+    out[k] = rows.data + k * rows.stride + first / kLanes * rows.piece_stride;
+  }
 }
 
 /// Points the scratch's rows at samples `first` on; where they are fewer than whole blocks, at a copy of them
@@ -65,6 +86,7 @@ Result<Batch> padded_chunk(const Batch& batch, std::size_t first, std::size_t n,
   copy(out.x);
   copy(out.y);
   copy(out.weight);
+  if (batch.radiance.padded) return out;
   for (auto* const list : {&scratch.radiance, &scratch.lambda_nm, &scratch.density}) {
     for (const float*& row : *list) copy(row);
   }
@@ -94,9 +116,10 @@ Result<void> make_room(const State& s, std::size_t wavelengths, FilmScratch& scr
 /// Everything that samples contribute, into the scratch, and the reasons why some do not.
 void weigh(const State& s, const kernels::KernelTable& table, const Batch& batch, std::size_t n,
            FilmScratch& scratch) {
-  const kernels::FilmSamples samples = {scratch.radiance.data(), scratch.lambda_nm.data(),
-                                        scratch.density.data(),  batch.weight,
-                                        batch.radiance.count,    n};
+  const kernels::FilmSamples samples = {scratch.radiance.data(),    scratch.lambda_nm.data(),
+                                        scratch.density.data(),     batch.weight,
+                                        batch.radiance.count,       n,
+                                        batch.radiance.piece_stride};
   for (std::size_t c = 0; c < s.responses.size(); ++c) {
     const kernels::FilmQuads out = {scratch.quads.data() + c * scratch.quad_floats,
                                     (c == 0 ? scratch.reasons : scratch.more_reasons).data(),
@@ -227,44 +250,78 @@ const float* data_or_null(std::span<const float> weight) {
   return weight.empty() ? nullptr : weight.data();
 }
 
+Result<void> positions_fit(const SamplePositions& at, std::size_t lanes) {
+  SPECTILE_TRY(same_size("other coordinates", at.y.size(), at.x.size()));
+  if (!at.weight.empty()) SPECTILE_TRY(same_size("weights", at.weight.size(), at.x.size()));
+  return same_size("lanes", lanes, at.x.size());
+}
+
+Result<void> takes(const State& s, FilmInput input) {
+  if (s.options.input == input) return {};
+  return make_error(
+      ErrorCode::kBadArgument, "the film takes radiance {}",
+      input == FilmInput::kBands ? "at wavelengths, not on bands" : "on its bands, not at wavelengths");
+}
+
+Result<void> takes_wavelengths(std::size_t count) {
+  if (count > 0 && count <= SpectralAxis::kMaxWavelengths) return {};
+  return make_error(ErrorCode::kBadArgument, "a sample takes 1 to {} wavelengths, not {}",
+                    SpectralAxis::kMaxWavelengths, count);
+}
+
 }  // namespace
 
 Result<void> Film::add(const WavelengthSamples& samples, const Execution& execution) {
   const std::size_t n = samples.x.size();
-  if (state_->options.input != FilmInput::kWavelengths) {
-    return make_error(ErrorCode::kBadArgument, "the film takes radiance on its bands, not at wavelengths");
-  }
-  SPECTILE_TRY(same_size("other coordinates", samples.y.size(), n));
-  if (!samples.weight.empty()) SPECTILE_TRY(same_size("weights", samples.weight.size(), n));
+  SPECTILE_TRY(takes(*state_, FilmInput::kWavelengths));
+  SPECTILE_TRY(positions_fit({samples.x, samples.y, samples.weight}, n));
   const std::size_t count = samples.radiance.count;
-  if (count == 0 || count > WavelengthLanes::kMaxWavelengths) {
-    return make_error(ErrorCode::kBadArgument, "a sample takes 1 to {} wavelengths, not {}",
-                      WavelengthLanes::kMaxWavelengths, count);
-  }
+  SPECTILE_TRY(takes_wavelengths(count));
   SPECTILE_TRY(rows_fit("radiance", samples.radiance, count, n));
   SPECTILE_TRY(rows_fit("wavelengths", samples.lambda_nm, count, n));
   SPECTILE_TRY(rows_fit("densities", samples.density, count, n));
   return add_batch(*state_,
-                   {samples.x.data(), samples.y.data(), data_or_null(samples.weight), samples.radiance,
-                    samples.lambda_nm, samples.density},
+                   {samples.x.data(), samples.y.data(), data_or_null(samples.weight),
+                    rows_of(samples.radiance), rows_of(samples.lambda_nm), rows_of(samples.density)},
                    n, execution);
 }
 
 Result<void> Film::add(const BandSamples& samples, const Execution& execution) {
   const std::size_t n = samples.x.size();
-  if (state_->options.input != FilmInput::kBands) {
-    return make_error(ErrorCode::kBadArgument, "the film takes radiance at wavelengths, not on bands");
-  }
-  SPECTILE_TRY(same_size("other coordinates", samples.y.size(), n));
-  if (!samples.weight.empty()) SPECTILE_TRY(same_size("weights", samples.weight.size(), n));
+  SPECTILE_TRY(takes(*state_, FilmInput::kBands));
+  SPECTILE_TRY(positions_fit({samples.x, samples.y, samples.weight}, n));
   if (samples.radiance.count != state_->options.bands.count()) {
     return make_error(ErrorCode::kBandsMismatch, "the batch has {} rows of radiance, the film {} bands",
                       samples.radiance.count, state_->options.bands.count());
   }
   SPECTILE_TRY(rows_fit("radiance", samples.radiance, samples.radiance.count, n));
+  return add_batch(*state_,
+                   {samples.x.data(), samples.y.data(), data_or_null(samples.weight),
+                    rows_of(samples.radiance), PieceRows(), PieceRows()},
+                   n, execution);
+}
+
+Result<void> Film::add(const SamplePositions& at, SampledSpectraView radiance,
+                       const SampledWavelengthsView& wavelengths, const Execution& execution) {
+  SPECTILE_TRY(takes(*state_, FilmInput::kWavelengths));
+  SPECTILE_TRY(positions_fit(at, radiance.lanes));
+  SPECTILE_TRY(shape::same(radiance, wavelengths.lambda_nm));
+  SPECTILE_TRY(shape::same(radiance, wavelengths.density));
+  SPECTILE_TRY(takes_wavelengths(radiance.axis.count()));
+  return add_batch(*state_,
+                   {at.x.data(), at.y.data(), data_or_null(at.weight), rows_of(radiance),
+                    rows_of(wavelengths.lambda_nm), rows_of(wavelengths.density)},
+                   at.x.size(), execution);
+}
+
+Result<void> Film::add(const SamplePositions& at, SampledSpectraView radiance, const Execution& execution) {
+  SPECTILE_TRY(takes(*state_, FilmInput::kBands));
+  SPECTILE_TRY(positions_fit(at, radiance.lanes));
+  SPECTILE_TRY(shape::same_bands("the film", state_->options.bands, radiance.axis));
   return add_batch(
-      *state_, {samples.x.data(), samples.y.data(), data_or_null(samples.weight), samples.radiance, {}, {}},
-      n, execution);
+      *state_,
+      {at.x.data(), at.y.data(), data_or_null(at.weight), rows_of(radiance), PieceRows(), PieceRows()},
+      at.x.size(), execution);
 }
 
 }  // namespace spectile

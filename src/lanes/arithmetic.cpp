@@ -23,7 +23,7 @@ Result<void> in_blocks(const std::array<SampledSpectraView, N>& inputs, const Sa
     SPECTILE_TRY(shape::aligned(input.data));
   }
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const std::size_t block_floats = out.bands.count() * kLanesPerBlock;
+  const std::size_t block_floats = out.axis.count() * kLanesPerBlock;
   tiles::for_blocks(blocks_for(out.lanes), execution, [&](std::size_t first, std::size_t count) {
     kernel(*table, first * block_floats, first * kLanesPerBlock, count);
   });
@@ -34,7 +34,7 @@ Result<void> in_blocks(const std::array<SampledSpectraView, N>& inputs, const Sa
 template <std::size_t N, class Kernel>
 Result<void> element_wise(const std::array<SampledSpectraView, N>& inputs, const SampledSpectraSpan& out,
                           const Execution& execution, Kernel kernel) {
-  const std::size_t block_floats = out.bands.count() * kLanesPerBlock;
+  const std::size_t block_floats = out.axis.count() * kLanesPerBlock;
   return in_blocks(inputs, out, execution,
                    [&](const KernelTable& k, std::size_t at, std::size_t /*lane*/, std::size_t blocks) {
                      kernel(k, at, blocks * block_floats);
@@ -75,7 +75,7 @@ Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const E
   SPECTILE_TRY(shape::aligned(a.data));
   SPECTILE_TRY(shape::aligned(out.data));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  const std::size_t block_floats = a.bands.count() * kLanesPerBlock;
+  const std::size_t block_floats = a.axis.count() * kLanesPerBlock;
   tiles::for_blocks(a.blocks(), execution, [&](std::size_t first, std::size_t count) {
     kernel(*table, out.data + first * kLanesPerBlock, a.data + first * block_floats, count);
   });
@@ -89,7 +89,7 @@ Result<LaneMask> compute_mask(const SampledSpectraView& a, const Execution& exec
   SPECTILE_ASSIGN(const auto table, dispatch::active());
   LaneMask mask(a.blocks());
   tiles::for_blocks(mask.size(), execution, [&](std::size_t first, std::size_t count) {
-    kernel(*table, mask.data() + first, first * a.bands.count() * kLanesPerBlock, count);
+    kernel(*table, mask.data() + first, first * a.axis.count() * kLanesPerBlock, count);
   });
   if (const std::size_t rest = a.lanes % kLanesPerBlock; rest != 0)
     mask.back() &= (std::uint64_t{1} << rest) - 1;
@@ -135,16 +135,16 @@ Result<void> scale(SampledSpectraView a, LanesView factor, SampledSpectraSpan ou
                    const Execution& execution) {
   return with_lanes<1>({a}, factor, out, execution,
                        [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
-                         k.scale_lanes(out.data + at, a.data + at, factor.data + lane, out.bands.count(),
+                         k.scale_lanes(out.data + at, a.data + at, factor.data + lane, out.axis.count(),
                                        blocks);
                        });
 }
 
 Result<void> multiply(SampledSpectraView a, std::span<const float> spectrum, SampledSpectraSpan out,
                       const Execution& execution) {
-  if (spectrum.size() != out.bands.count()) {
-    return make_error(ErrorCode::kBandsMismatch, "a spectrum of {} samples, the batch has {} bands",
-                      spectrum.size(), out.bands.count());
+  if (spectrum.size() != out.axis.count()) {
+    return make_error(ErrorCode::kBandsMismatch, "a spectrum of {} samples, the batch has {}",
+                      spectrum.size(), out.axis.description());
   }
   return in_blocks<1>({a}, out, execution,
                       [&](const KernelTable& k, std::size_t at, std::size_t /*lane*/, std::size_t blocks) {
@@ -173,7 +173,7 @@ Result<void> lerp(SampledSpectraView a, SampledSpectraView b, LanesView t, Sampl
   return with_lanes<2>({a, b}, t, out, execution,
                        [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
                          k.lerp_lanes(out.data + at, a.data + at, b.data + at, t.data + lane,
-                                      out.bands.count(), blocks);
+                                      out.axis.count(), blocks);
                        });
 }
 
@@ -190,7 +190,7 @@ Result<void> transmittance(SampledSpectraView sigma, LanesView distance, Sampled
   return with_lanes<1>({sigma}, distance, out, execution,
                        [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
                          k.transmittance(out.data + at, sigma.data + at, distance.data + lane,
-                                         out.bands.count(), blocks);
+                                         out.axis.count(), blocks);
                        });
 }
 
@@ -213,26 +213,29 @@ Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Exec
 Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execution) {
   return per_lane(a, out, execution,
                   [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
-                    k.minimum(dst, in, a.bands.count(), blocks);
+                    k.minimum(dst, in, a.axis.count(), blocks);
                   });
 }
 
 Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execution) {
   return per_lane(a, out, execution,
                   [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
-                    k.maximum(dst, in, a.bands.count(), blocks);
+                    k.maximum(dst, in, a.axis.count(), blocks);
                   });
 }
 
 Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution) {
-  if (a.bands.overlap()) {
-    return make_error(ErrorCode::kBadArgument, "bands {} overlap: their average counts light twice",
-                      a.bands.description());
+  std::vector<float> weights(a.axis.count(), 1.0F / static_cast<float>(a.axis.count()));
+  if (const Bands* const bands = a.axis.bands()) {
+    if (bands->overlap()) {
+      return make_error(ErrorCode::kBadArgument, "bands {} overlap: their average counts light twice",
+                        bands->description());
+    }
+    double total = 0;
+    for (const Band& band : bands->list()) total += band.width_nm();
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] = static_cast<float>((*bands)[i].width_nm() / total);
   }
-  double total = 0;
-  for (const Band& band : a.bands.list()) total += band.width_nm();
-  std::vector<float> weights;
-  for (const Band& band : a.bands.list()) weights.push_back(static_cast<float>(band.width_nm() / total));
   return per_lane(a, out, execution,
                   [&](const KernelTable& k, float* dst, const float* in, std::size_t blocks) {
                     k.weighted_sum(dst, in, weights.data(), weights.size(), blocks);
@@ -242,14 +245,14 @@ Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execu
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution) {
   return compute_mask(a, execution,
                       [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
-                        k.black_mask(mask, a.data + at, a.bands.count(), count);
+                        k.black_mask(mask, a.data + at, a.axis.count(), count);
                       });
 }
 
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution) {
   return compute_mask(a, execution,
                       [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
-                        k.nan_mask(mask, a.data + at, a.bands.count(), count);
+                        k.nan_mask(mask, a.data + at, a.axis.count(), count);
                       });
 }
 
@@ -258,7 +261,7 @@ Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const E
   SPECTILE_TRY(shape::aligned(b.data));
   return compute_mask(a, execution,
                       [&](const KernelTable& k, std::uint64_t* mask, std::size_t at, std::size_t count) {
-                        k.equal_mask(mask, a.data + at, b.data + at, a.bands.count(), count);
+                        k.equal_mask(mask, a.data + at, b.data + at, a.axis.count(), count);
                       });
 }
 

@@ -19,34 +19,34 @@ bool too_many(std::size_t lanes, std::size_t per_lane) {
 
 }  // namespace
 
-Result<SampledSpectra> SampledSpectra::create(const Bands& bands, std::size_t lanes) {
-  return constant(bands, lanes, 0.0F);
+Result<SampledSpectra> SampledSpectra::create(const SpectralAxis& axis, std::size_t lanes) {
+  return constant(axis, lanes, 0.0F);
 }
 
-Result<SampledSpectra> SampledSpectra::constant(const Bands& bands, std::size_t lanes, float value) {
-  const std::vector<float> values(bands.count(), value);
-  return broadcast(bands, lanes, values);
+Result<SampledSpectra> SampledSpectra::constant(const SpectralAxis& axis, std::size_t lanes, float value) {
+  const std::vector<float> values(axis.count(), value);
+  return broadcast(axis, lanes, values);
 }
 
-Result<SampledSpectra> SampledSpectra::broadcast(const Bands& bands, std::size_t lanes,
+Result<SampledSpectra> SampledSpectra::broadcast(const SpectralAxis& axis, std::size_t lanes,
                                                  std::span<const float> values) {
-  if (values.size() != bands.count()) {
-    return make_error(ErrorCode::kBandsMismatch, "the spectrum has {} values, the bands are {}",
-                      values.size(), bands.count());
+  if (values.size() != axis.count()) {
+    return make_error(ErrorCode::kBandsMismatch, "the spectrum has {} values, the batch has {}",
+                      values.size(), axis.description());
   }
-  if (too_many(lanes, bands.count())) {
-    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} bands do not fit in memory", lanes,
-                      bands.count());
+  if (too_many(lanes, axis.count())) {
+    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} samples do not fit in memory", lanes,
+                      axis.count());
   }
   const std::size_t blocks = blocks_for(lanes);
   SampledSpectra spectra;
-  SPECTILE_ASSIGN(spectra.buffer_, FloatBuffer::create(blocks * bands.count() * kLanesPerBlock));
+  SPECTILE_ASSIGN(spectra.buffer_, FloatBuffer::create(blocks * axis.count() * kLanesPerBlock));
   float* out = spectra.buffer_.data();
   for (std::size_t block = 0; block < blocks; ++block) {
     for (const float value : values) out = std::fill_n(out, kLanesPerBlock, value);
   }
   spectra.lanes_ = lanes;
-  spectra.bands_ = bands;
+  spectra.axis_ = axis;
   return spectra;
 }
 
@@ -55,7 +55,7 @@ Result<SampledSpectra> SampledSpectra::clone() const {
   SPECTILE_ASSIGN(out.buffer_, FloatBuffer::create(buffer_.size()));
   std::copy_n(buffer_.data(), buffer_.size(), out.buffer_.data());
   out.lanes_ = lanes_;
-  out.bands_ = bands_;
+  out.axis_ = axis_;
   return out;
 }
 

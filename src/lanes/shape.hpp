@@ -9,9 +9,9 @@
 namespace spectile::shape {
 
 inline Result<void> same(const SampledSpectraView& a, const SampledSpectraView& b) {
-  if (!(a.bands == b.bands)) {
-    return make_error(ErrorCode::kBandsMismatch, "one batch has bands {}, the other {}",
-                      a.bands.description(), b.bands.description());
+  if (!(a.axis == b.axis)) {
+    return make_error(ErrorCode::kBandsMismatch, "one batch has {}, the other {}", a.axis.description(),
+                      b.axis.description());
   }
   if (a.lanes != b.lanes) {
     return make_error(ErrorCode::kSizeMismatch, "one batch has {} lanes, the other {}", a.lanes, b.lanes);
@@ -25,10 +25,17 @@ inline Result<void> same_lanes(std::size_t a, std::size_t b) {
 }
 
 /// `what` expects the bands: "the projector".
-inline Result<void> same_bands(const char* what, const Bands& expected, const Bands& given) {
+inline Result<void> same_bands(const char* what, const SpectralAxis& expected, const SpectralAxis& given) {
   if (expected == given) return {};
-  return make_error(ErrorCode::kBandsMismatch, "the spectra have bands {}, {} expects {}",
-                    given.description(), what, expected.description());
+  return make_error(ErrorCode::kBandsMismatch, "the spectra have {}, {} expects {}", given.description(),
+                    what, expected.description());
+}
+
+/// Of a batch that is wavelengths, or values at them.
+inline Result<void> own_wavelengths(const SpectralAxis& axis) {
+  if (axis.bands() == nullptr) return {};
+  return make_error(ErrorCode::kBandsMismatch, "wavelengths are each lane's own, the batch has {}",
+                    axis.description());
 }
 
 inline Result<void> aligned(const void* p) {

@@ -237,26 +237,27 @@ Result<SpectrumSampler> SpectrumSampler::create(const Spectrum& spectrum) {
   return out;
 }
 
-Result<void> SpectrumSampler::sample(WavelengthView lambda_nm, WavelengthSpan values,
+void SpectrumSampler::sample_run(const KernelTable& kernels, const float* lambda_nm, float* values,
+                                 std::size_t n) const {
+  tables_->row(kernels, lambda_nm, values, n);
+}
+
+Result<void> SpectrumSampler::sample(SampledSpectraView lambda_nm, SampledSpectraSpan values,
                                      const Execution& execution) const {
-  SPECTILE_TRY(shape::same_lanes(lambda_nm.lanes, values.lanes));
-  if (lambda_nm.count != values.count) {
-    return make_error(ErrorCode::kSizeMismatch, "one batch has {} wavelengths a lane, the other {}",
-                      lambda_nm.count, values.count);
-  }
+  SPECTILE_TRY(shape::own_wavelengths(lambda_nm.axis));
+  SPECTILE_TRY(shape::same(lambda_nm, values));
   SPECTILE_TRY(shape::aligned(lambda_nm.data));
   SPECTILE_TRY(shape::aligned(values.data));
   SPECTILE_ASSIGN(const auto table, dispatch::active());
-  tiles::for_blocks(blocks_for(values.lanes), execution, [&](std::size_t first, std::size_t count) {
-    const std::size_t at = first * kLanesPerBlock;
-    for (std::size_t k = 0; k < values.count; ++k) {
-      tables_->row(*table, lambda_nm.row(k) + at, values.row(k) + at, count * kLanesPerBlock);
-    }
+  const std::size_t block_floats = values.axis.count() * kLanesPerBlock;
+  tiles::for_blocks(values.blocks(), execution, [&](std::size_t first, std::size_t count) {
+    const std::size_t at = first * block_floats;
+    sample_run(*table, lambda_nm.data + at, values.data + at, count * block_floats);
   });
   return {};
 }
 
-Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
+Result<void> sample(const Spectrum& spectrum, SampledSpectraView lambda_nm, SampledSpectraSpan values,
                     const Execution& execution) {
   SPECTILE_ASSIGN(const auto sampler, SpectrumSampler::create(spectrum));
   return sampler.sample(lambda_nm, values, execution);

@@ -5,7 +5,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
-#include "src/lanes/row_pointers.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 
@@ -32,28 +31,10 @@ WavelengthDensity density_over(double first_nm, double last_nm) {
 
 }  // namespace
 
-Result<WavelengthLanes> WavelengthLanes::create(std::size_t lanes, std::size_t count) {
-  if (count == 0 || count > kMaxWavelengths) {
-    return make_error(ErrorCode::kBadArgument, "a lane takes 1 to {} wavelengths, not {}", kMaxWavelengths,
-                      count);
-  }
-  const std::size_t stride = blocks_for(lanes) * kLanesPerBlock;
-  if (lanes > (std::size_t{1} << 56) / count) {
-    return make_error(ErrorCode::kOutOfMemory, "{} lanes of {} wavelengths do not fit in memory", lanes,
-                      count);
-  }
-  WavelengthLanes out;
-  SPECTILE_ASSIGN(out.buffer_, FloatBuffer::create(std::max<std::size_t>(1, stride * count)));
-  std::fill_n(out.buffer_.data(), out.buffer_.size(), 0.0F);
-  out.lanes_ = lanes;
-  out.count_ = count;
-  out.stride_ = stride;
-  return out;
-}
-
 Result<SampledWavelengths> SampledWavelengths::create(std::size_t lanes, std::size_t count) {
-  SPECTILE_ASSIGN(auto lambda, WavelengthLanes::create(lanes, count));
-  SPECTILE_ASSIGN(auto density, WavelengthLanes::create(lanes, count));
+  SPECTILE_ASSIGN(const auto axis, SpectralAxis::own_wavelengths(count));
+  SPECTILE_ASSIGN(auto lambda, SampledSpectra::create(axis, lanes));
+  SPECTILE_ASSIGN(auto density, SampledSpectra::create(axis, lanes));
   return SampledWavelengths{std::move(lambda), std::move(density)};
 }
 
@@ -74,13 +55,11 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
   }
   const auto kernel =
       sampling == WavelengthSampling::kUniform ? table->even_wavelengths : table->visible_wavelengths;
-  const WavelengthSpan lambda = out.lambda_nm.span();
-  const WavelengthSpan pdf = out.density.span();
+  const SampledSpectraSpan lambda = out.lambda_nm;
+  const SampledSpectraSpan pdf = out.density;
   tiles::for_blocks(blocks_for(u.lanes), execution, [&](std::size_t first, std::size_t count) {
-    const std::size_t at = first * kLanesPerBlock;
-    const rows::RowPointers<float> to(lambda, at);
-    const rows::RowPointers<float> densities(pdf, at);
-    kernel(to.data(), densities.data(), u.data + at, density, out.count(), count * kLanesPerBlock);
+    kernel(lambda.row(first, 0), pdf.row(first, 0), u.data + first * kLanesPerBlock, density, out.count(),
+           count);
   });
   return {};
 }
@@ -90,27 +69,28 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths) {
 }
 
 Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes) {
-  const WavelengthSpan density = wavelengths.density.span();
-  if (lanes.size() != blocks_for(density.lanes)) {
+  const SampledSpectraSpan density = wavelengths.density;
+  if (lanes.size() != density.blocks()) {
     return make_error(ErrorCode::kSizeMismatch, "the mask has {} words, {} lanes have {}", lanes.size(),
-                      density.lanes, blocks_for(density.lanes));
+                      density.lanes, density.blocks());
   }
   const LaneMask already = secondary_terminated(wavelengths);
   for (std::size_t i = 0; i < density.lanes; ++i) {
     const std::size_t word = i / kLanesPerBlock;
     if (((lanes[word] & ~already[word]) >> (i % kLanesPerBlock) & 1) == 0) continue;
-    for (std::size_t k = 1; k < density.count; ++k) density.row(k)[i] = 0;
-    if (density.count > 1) density.row(0)[i] /= static_cast<float>(density.count);
+    for (std::size_t k = 1; k < wavelengths.count(); ++k) density.at(i, k) = 0;
+    if (wavelengths.count() > 1) density.at(i, 0) /= static_cast<float>(wavelengths.count());
   }
   return {};
 }
 
-LaneMask secondary_terminated(const SampledWavelengths& wavelengths) {
-  const WavelengthView density = wavelengths.density.view();
-  LaneMask out(blocks_for(density.lanes));
-  for (std::size_t i = 0; density.count > 1 && i < density.lanes; ++i) {
+LaneMask secondary_terminated(const SampledWavelengthsView& wavelengths) {
+  const SampledSpectraView& density = wavelengths.density;
+  const std::size_t count = density.axis.count();
+  LaneMask out(density.blocks());
+  for (std::size_t i = 0; count > 1 && i < density.lanes; ++i) {
     bool live = false;
-    for (std::size_t k = 1; k < density.count; ++k) live = live || density.row(k)[i] != 0;
+    for (std::size_t k = 1; k < count; ++k) live = live || density.at(i, k) != 0;
     out[i / kLanesPerBlock] |= std::uint64_t{!live} << (i % kLanesPerBlock);
   }
   return out;

@@ -102,11 +102,12 @@ void film_weigh_wavelengths(const FilmQuads& out, const FilmSamples& samples, co
     bool nan = false;
     bool infinite = false;
     bool negative = false;
+    const std::size_t place = samples.place(i);
     for (std::size_t k = 0; k < samples.count; ++k) {
-      const float pdf = samples.density[k][i];
+      const float pdf = samples.density[k][place];
       if (pdf == 0.0F) continue;
-      const float lambda = samples.lambda_nm[k][i];
-      const float ratio = samples.radiance[k][i] / pdf;
+      const float lambda = samples.lambda_nm[k][place];
+      const float ratio = samples.radiance[k][place] / pdf;
       for (const float v : {pdf, lambda, ratio}) {
         nan = nan || std::isnan(v);
         infinite = infinite || std::isinf(v);
@@ -135,7 +136,7 @@ void film_weigh_bands(const FilmQuads& out, const FilmSamples& samples, const fl
     for (std::size_t first = 0; first < bands; first += kSumRun) {
       std::array<float, 3> run{};
       for (std::size_t b = first; b < std::min(bands, first + kSumRun); ++b) {
-        const float v = samples.radiance[b][i];
+        const float v = samples.radiance[b][samples.place(i)];
         nan = nan || std::isnan(v);
         infinite = infinite || std::isinf(v);
         for (std::size_t c = 0; c < 3; ++c) run[c] += weights[4 * b + c] * v;
@@ -152,12 +153,12 @@ void film_band_quads(float* quads, std::size_t stride, std::int32_t* reasons, co
   const std::size_t bands = samples.count;
   for (std::size_t i = 0; i < samples.n; ++i) {
     float most = 0;
-    for (std::size_t b = 0; b < bands; ++b) most = std::max(most, std::abs(radiance[b][i]));
+    for (std::size_t b = 0; b < bands; ++b) most = std::max(most, std::abs(radiance[b][samples.place(i)]));
     const float w = factor_at(samples.weight, i);
     const bool clamps = std::isfinite(limits.maximum) && most > limits.maximum;
     float* const quad = quads + i * stride;
     for (std::size_t b = 0; b < (bands + 3) / 4 * 4; ++b) {
-      const float v = b < bands ? radiance[b][i] : 0.0F;
+      const float v = b < bands ? radiance[b][samples.place(i)] : 0.0F;
       quad[b] = (clamps ? (v / most) * limits.maximum : v) * w;
       if (b >= bands) quad[b] = 0;
       if (reasons[i] == kFilmAccepted && beyond(quad[b], limits.range)) reasons[i] = kFilmBeyondRange;
@@ -169,19 +170,20 @@ void film_hits(const FilmHits& out, const FilmSamples& samples, const BucketTabl
                const FilmLimits& limits, float reference) noexcept {
   for (std::size_t i = 0; i < samples.n; ++i) {
     const bool clamps = std::isfinite(limits.maximum);
+    const std::size_t place = samples.place(i);
     float most = 0;
     for (std::size_t k = 0; k < samples.count; ++k) {
-      if (samples.density[k][i] != 0.0F) most = std::max(most, std::abs(samples.radiance[k][i]));
+      if (samples.density[k][place] != 0.0F) most = std::max(most, std::abs(samples.radiance[k][place]));
     }
     bool fits = true;
     for (std::size_t k = 0; k < samples.count; ++k) {
-      const float density = samples.density[k][i];
-      const float radiance = samples.radiance[k][i];
+      const float density = samples.density[k][place];
+      const float radiance = samples.radiance[k][place];
       const std::size_t at = k * samples.n + i;
       const float u = factor_at(samples.weight, i) * (reference / density);
       const bool too_large = clamps && most > limits.maximum;
       const float value = (too_large ? (radiance / most) * limits.maximum : radiance) * u;
-      out.band[at] = density != 0.0F ? band_at(table, samples.lambda_nm[k][i]) : -1;
+      out.band[at] = density != 0.0F ? band_at(table, samples.lambda_nm[k][place]) : -1;
       out.values[2 * at] = value;
       out.values[2 * at + 1] = u;
       fits = fits && (out.band[at] < 0 || (!beyond(value, limits.range) && !beyond(u, limits.weight_range)));

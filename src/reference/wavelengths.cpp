@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/reference/centres.hpp"
 #include "src/reference/exponential.hpp"
 #include "src/reference/twins.hpp"
 #include "src/reference/upsampling/sigmoid.hpp"
@@ -10,6 +11,7 @@ namespace spectile::reference {
 namespace {
 
 using kernels::EvenTable;
+using kernels::kLanes;
 using kernels::KnotTable;
 using kernels::WavelengthDensity;
 
@@ -23,17 +25,23 @@ float value_at(const EvenTable& table, float lambda) {
   return pair[0] + part * pair[1];
 }
 
+/// Table: SigmoidSpectrum or SigmoidLanes.
+template <class Table>
+float sigmoid_of(const Table& s, const float c[3], float lambda) {
+  const float held = std::clamp(lambda, s.lowest_nm, s.highest_nm);
+  const bool tabulated = s.form == kernels::SigmoidForm::kFunctions;
+  const float p = tabulated ? value_at(s.p, held) : 0.0F;
+  const float q = tabulated ? value_at(s.q, held) : (held - 550.0F) / 150.0F;
+  return sigmoid_sample(sigmoid_argument(s.form, c, p, q));
+}
+
 float value_at(const KnotTable& table, float lambda) {
   if (std::isnan(lambda)) return lambda;
   const float first = table.knots[0];
   const float last = table.knots[table.count - 1];
   if (!table.held && (lambda < first || lambda > last)) return 0;
   const float held = std::clamp(lambda, first, last);
-  const float bucket = std::min(static_cast<float>(table.buckets - 1), (held - first) * table.buckets_per_nm);
-  std::int32_t knot = table.start[static_cast<std::int32_t>(bucket)];
-  for (std::int32_t step = (1 << table.halvings) >> 1; step > 0; step >>= 1) {
-    if (table.knots[knot + step] <= held) knot += step;
-  }
+  const std::int32_t knot = last_knot(table, held);
   const float* const pair = table.pairs + std::ptrdiff_t{2} * knot;
   return pair[0] + (held - table.knots[knot]) * pair[1];
 }
@@ -102,48 +110,59 @@ void gaussians(float* dst, const float* lambda_nm, const kernels::GaussianLobe* 
 void sigmoid_at(float* dst, const float* lambda_nm, const kernels::SigmoidSpectrum& s,
                 std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
-    const float lambda = lambda_nm[i];
-    const float held = lambda < s.lowest_nm ? s.lowest_nm : (lambda > s.highest_nm ? s.highest_nm : lambda);
-    const bool tabulated = s.form == kernels::SigmoidForm::kFunctions;
-    const float p = tabulated ? value_at(s.p, held) : 0.0F;
-    const float q = tabulated ? value_at(s.q, held) : (held - 550.0F) / 150.0F;
-    dst[i] = std::isnan(lambda) ? lambda : sigmoid_sample(sigmoid_argument(s.form, s.c, p, q)) * s.scale;
+    dst[i] = std::isnan(lambda_nm[i]) ? lambda_nm[i] : sigmoid_of(s, s.c, lambda_nm[i]) * s.scale;
   }
 }
 
-void even_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
-                      const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < n; ++i) {
-      lambda_nm[k][i] = d.first_nm + spread(u[i], k, count) * d.range_nm;
-      density[k][i] = 1.0F / d.range_nm;
+void sigmoids_at(float* dst, const kernels::SigmoidLanes& s, const float* lambda_nm, std::size_t count,
+                 std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    const float c[3] = {s.c[0][i], s.c[1][i], s.c[2][i]};
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = own_sample(i, k, count);
+      const float lambda = lambda_nm[at];
+      const float sample = std::isnan(lambda) ? lambda : sigmoid_of(s, c, lambda);
+      dst[at] = s.scale == nullptr || std::isnan(lambda) ? sample : sample * s.scale[i];
     }
   }
 }
 
-void visible_wavelengths(float* const* lambda_nm, float* const* density, const float* u,
-                         const WavelengthDensity& d, std::size_t count, std::size_t n) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < n; ++i) {
+void even_wavelengths(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                      std::size_t count, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = own_sample(i, k, count);
+      lambda_nm[at] = d.first_nm + spread(u[i], k, count) * d.range_nm;
+      density[at] = 1.0F / d.range_nm;
+    }
+  }
+}
+
+void visible_wavelengths(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
+                         std::size_t count, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    for (std::size_t k = 0; k < count; ++k) {
       const float v = spread(u[i], k, count);
       const double y = d.from - v * d.by;
       const double lambda =
           d.centre_nm - log2_double((1.0 + y) / (1.0 - y)) * (0.5 * kernels::kLn2 * d.per_steepness_nm);
-      lambda_nm[k][i] = std::isnan(v) ? v : static_cast<float>(lambda);
-      density[k][i] = static_cast<float>(d.peak * (1.0 - y * y));
+      const std::size_t at = own_sample(i, k, count);
+      lambda_nm[at] = std::isnan(v) ? v : static_cast<float>(lambda);
+      density[at] = static_cast<float>(d.peak * (1.0 - y * y));
     }
   }
 }
 
-void project_wavelengths(float* const dst[3], const kernels::WavelengthRows& samples,
-                         const EvenTable curves[3], float factor, std::size_t n) noexcept {
+void project_wavelengths(float* const dst[3], const kernels::WavelengthBlocks& samples,
+                         const EvenTable curves[3], float factor, std::size_t blocks) noexcept {
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < blocks * kLanes; ++i) {
       float sum = 0;
       for (std::size_t k = 0; k < samples.count; ++k) {
-        const float density = samples.density[k][i];
+        const std::size_t at = own_sample(i, k, samples.count);
+        const float density = samples.density[at];
         if (density == 0.0F) continue;
-        sum = sum + value_at(curves[c], samples.lambda_nm[k][i]) * (samples.values[k][i] / density);
+        sum = sum + value_at(curves[c], samples.lambda_nm[at]) * (samples.values[at] / density);
       }
       dst[c][i] = factor * sum;
     }

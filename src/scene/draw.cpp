@@ -155,6 +155,7 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
   const std::size_t lanes = std::max<std::size_t>(1, std::min(kChunk, total));
   SPECTILE_ASSIGN(auto u, ScalarLanes::create(lanes));
   SPECTILE_ASSIGN(auto wavelengths, SampledWavelengths::create(lanes, bands ? 1 : rows));
+  const SampledWavelengthsView drawn = wavelengths;
   const auto averages = bands ? parts_->responses.averages(film.bands, false) : nullptr;
 
   batch.size_ = 0;
@@ -216,13 +217,14 @@ Result<void> ProceduralScene::draw(const FilmOptions& film, const SceneSampling&
     SPECTILE_TRY(sample_wavelengths(sampling.density, u.view(), wavelengths, kFirstVisibleNm, kLastVisibleNm,
                                     Execution{1}));
     for (std::size_t k = 0; k < rows; ++k) {
-      const float* const lambda = wavelengths.lambda_nm.view().row(k);
-      const float* const density = wavelengths.density.view().row(k);
       const std::size_t at = k * batch.stride_ + done;
-      std::copy_n(lambda, n, batch.lambda_.data() + at);
-      std::copy_n(density, n, batch.density_.data() + at);
-      float* const radiance = batch.radiance_.data() + at;
-      interpolate(radiance, lambda, chunk, parts_->tables.data(), n);
+      float* const lambda = batch.lambda_.data() + at;
+      for (std::size_t i = 0; i < n; i += kLanesPerBlock) {
+        const std::size_t lanes_left = std::min(kLanesPerBlock, n - i);
+        std::copy_n(drawn.lambda_nm.row(i / kLanesPerBlock, k), lanes_left, lambda + i);
+        std::copy_n(drawn.density.row(i / kLanesPerBlock, k), lanes_left, batch.density_.data() + at + i);
+      }
+      interpolate(batch.radiance_.data() + at, lambda, chunk, parts_->tables.data(), n);
     }
   }
   batch.size_ = total;

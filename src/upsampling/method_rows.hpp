@@ -18,6 +18,9 @@ struct UpsamplerAccess {
   static const std::shared_ptr<const GridModel>& grid(const Upsampler& upsampler) noexcept {
     return upsampler.grid_;
   }
+  static const WavelengthTables& at_wavelengths(const Upsampler& upsampler) noexcept {
+    return *upsampler.at_wavelengths_;
+  }
 };
 
 /// A relighter's table in the kernels' layout.

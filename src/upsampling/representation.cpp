@@ -98,7 +98,7 @@ Result<SampledSpectra> RgbRepresentation::reflectance(const Spectrum& spectrum, 
 
 Result<void> RgbRepresentation::light_from_rgb(ColorView rgb, SampledSpectraSpan out,
                                                const Execution& execution) const {
-  SPECTILE_TRY(shape::same_bands("the representation", bands_, out.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, out.axis));
   SPECTILE_TRY(shape::same_lanes(rgb.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(out.data));
   SPECTILE_TRY(shape::aligned(rgb));
@@ -120,7 +120,7 @@ Result<void> RgbRepresentation::reflectance_from_rgb(ColorView rgb, SampledSpect
 
 Result<void> RgbRepresentation::weighted(const Matrix3& matrix, SampledSpectraView light, ColorSpan out,
                                          const Execution& execution) const {
-  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.axis));
   SPECTILE_TRY(shape::same_lanes(light.lanes, out.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
   SPECTILE_TRY(shape::aligned(out));
@@ -147,7 +147,7 @@ Result<void> RgbRepresentation::to_rgb(SampledSpectraView light, ColorSpan rgb,
 
 Result<void> RgbRepresentation::luminance(SampledSpectraView light, LanesSpan y,
                                           const Execution& execution) const {
-  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.bands));
+  SPECTILE_TRY(shape::same_bands("the representation", bands_, light.axis));
   SPECTILE_TRY(shape::same_lanes(light.lanes, y.lanes));
   SPECTILE_TRY(shape::aligned(light.data));
   SPECTILE_TRY(shape::aligned(y.data));

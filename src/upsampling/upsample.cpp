@@ -25,7 +25,7 @@ struct Chunk {
 };
 
 Result<void> check(const Upsampler& upsampler, const ColorView& in, const SampledSpectraSpan& spectra) {
-  SPECTILE_TRY(shape::same_bands("the upsampler", upsampler.bands(), spectra.bands));
+  SPECTILE_TRY(shape::same_bands("the upsampler", upsampler.bands(), spectra.axis));
   SPECTILE_TRY(shape::same_lanes(in.lanes, spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   return shape::aligned(in);

@@ -11,6 +11,7 @@
 #include "src/spectra/band_weights.hpp"
 #include "src/upsampling/exact_basis.hpp"
 #include "src/upsampling/grid/color_grid.hpp"
+#include "src/upsampling/own_wavelengths/wavelength_tables.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
 
 namespace spectile {
@@ -189,11 +190,13 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   if (is_sigmoid(method)) {
     const auto functions = method == Method::kSigmoid ? std::nullopt : std::optional(options.observer);
     SPECTILE_ASSIGN(out.sigmoid_, sigmoid_model(bands, *space, SigmoidFunctions::of(functions)));
+    SPECTILE_ASSIGN(out.at_wavelengths_, wavelength_tables(out));
     return out;
   }
   if (method == Method::kTetrahedral) {
     SPECTILE_ASSIGN(auto grid, sigmoid_grid(bands, *space, options.observer, options.nodes.get()));
     SPECTILE_ASSIGN(out.grid_, grid_model(std::move(grid), out.lowest_, quantity != Quantity::kReflectance));
+    SPECTILE_ASSIGN(out.at_wavelengths_, wavelength_tables(out));
     return out;
   }
   SPECTILE_ASSIGN(out.basis_, published ? published_basis(method, quantity, bands)
@@ -205,6 +208,7 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
       out.table_.data()[b * kernels::kSmitsRow + k] = static_cast<float>(out.basis_[b][k]);
     }
   }
+  SPECTILE_ASSIGN(out.at_wavelengths_, wavelength_tables(out));
   return out;
 }
 

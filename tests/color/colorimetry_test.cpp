@@ -241,8 +241,8 @@ TEST(Project, LuminanceOfOneIsOne) {
 
 TEST(Project, LetsNanAndInfinitiesThrough) {
   auto spectra = *SampledSpectra::constant(Bands(), 3, 1.0F);
-  spectra.set(0, 30, kNan);
-  spectra.set(1, 30, kInf);
+  spectra.at(0, 30) = kNan;
+  spectra.at(1, 30) = kInf;
   auto xyz = *ColorLanes::create(3);
   ASSERT_TRUE(project(*Projector::emissive(Bands()), spectra.view(), xyz.span()));
   for (std::size_t k = 0; k < 3; ++k) {

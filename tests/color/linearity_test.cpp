@@ -24,7 +24,7 @@ double sum_of_weights(const ColorLanes& rgb, std::size_t i) {
 /// The sum of the magnitudes of what a projection adds up.
 double size_of(const Projector& projector, const SampledSpectra& spectra, std::size_t i, std::size_t k) {
   double size = 0;
-  for (std::size_t b = 0; b < spectra.bands().count(); ++b) {
+  for (std::size_t b = 0; b < spectra.axis().count(); ++b) {
     size += projector.weights()[b][k] * std::abs(double(spectra.at(i, b)));
   }
   return size;
@@ -64,7 +64,7 @@ RC_GTEST_PROP(ColorLinearity, UnboundedSigmoidsAreExactlyHomogeneousForPowersOfT
   const float factor = std::ldexp(1.0F, *rc::gen::inRange(-60, 100));
   const auto plain = upsampled(upsampler, rgb);
   const auto scaled = upsampled(upsampler, each_component(rgb, [&](float v) { return factor * v; }));
-  const auto want = batch_of(plain.bands(), plain.lanes(),
+  const auto want = batch_of(plain.axis(), plain.lanes(),
                              [&](std::size_t i, std::size_t b) { return factor * plain.at(i, b); });
   RC_ASSERT(same_lanes(scaled, want));
 }

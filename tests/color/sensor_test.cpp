@@ -97,7 +97,7 @@ TEST(Sensor, SampledWavelengthsEstimateItsResponse) {
   for (std::size_t i = 0; i < lanes; ++i) u[i] = unit(random);
   auto wavelengths = *SampledWavelengths::create(lanes, 8);
   ASSERT_TRUE(sample_wavelengths(WavelengthSampling::kVisible, u.view(), wavelengths));
-  auto radiance = *WavelengthLanes::create(lanes, 8);
+  auto radiance = own_batch(lanes, 8);
   ASSERT_TRUE(sample(light("D50"), wavelengths.lambda_nm.view(), radiance.span()));
   auto rgb = *ColorLanes::create(lanes);
   ASSERT_TRUE(project(*sensor.response_curves(), radiance.view(), wavelengths, rgb.span()));

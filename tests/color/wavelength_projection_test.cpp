@@ -23,7 +23,7 @@ Estimate estimate(const Spectrum& light, WavelengthSampling sampling, std::size_
     for (std::size_t i = 0; i < lanes; ++i) hit[i / 64] |= std::uint64_t{i % 3 != 0} << (i % 64);
     EXPECT_TRUE(terminate_secondary(w, hit));
   }
-  auto radiance = *WavelengthLanes::create(lanes, count);
+  auto radiance = own_batch(lanes, count);
   EXPECT_TRUE(sample(light, w.lambda_nm.view(), radiance.span()));
   auto xyz = *ColorLanes::create(lanes);
   EXPECT_TRUE(project(*ResponseCurves::of_observer(), radiance.view(), w, xyz.span()));
@@ -98,7 +98,7 @@ TEST(ResponseCurves, AnyThreeWillDo) {
   const auto curves =
       *ResponseCurves::create({box, ConstantSpectrum(1), *BlackbodySpectrum::create(5000)}, {2, 0.5, 1e-9});
   auto w = drawn_wavelengths(WavelengthSampling::kUniform, 10000, 8, 6);
-  auto radiance = *WavelengthLanes::create(10000, 8);
+  auto radiance = own_batch(10000, 8);
   ASSERT_TRUE(sample(ConstantSpectrum(3), w.lambda_nm.view(), radiance.span()));
   auto rgb = *ColorLanes::create(10000);
   ASSERT_TRUE(project(curves, radiance.view(), w, rgb.span()));
@@ -119,7 +119,7 @@ TEST(ProjectWavelengths, SteepCurvesAreWithinTheBound) {
   const Spectrum fall = *PiecewiseLinearSpectrum::from_samples(nm, v);
   const auto curves = *ResponseCurves::create({fall, fall, fall});
   auto w = *SampledWavelengths::create(64, 1);
-  auto radiance = *WavelengthLanes::create(64, 1);
+  auto radiance = own_batch(64, 1);
   for (std::size_t i = 0; i < 64; ++i) {
     w.lambda_nm.at(i, 0) = 501 - static_cast<float>(i + 1) * 0x1p-15F;
     w.density.at(i, 0) = radiance.at(i, 0) = 1;

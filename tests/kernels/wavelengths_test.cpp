@@ -83,13 +83,8 @@ TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
     Floats got[2] = {Floats(kCount * kAll), Floats(kCount * kAll)};
     Floats want[2] = {Floats(kCount * kAll), Floats(kCount * kAll)};
     const auto draw = [&](const kernels::KernelTable& t, Floats* out) {
-      float* lambda[kCount];
-      float* density[kCount];
-      for (std::size_t k = 0; k < kCount; ++k) {
-        lambda[k] = out[0].data() + k * kAll;
-        density[k] = out[1].data() + k * kAll;
-      }
-      (visible ? t.visible_wavelengths : t.even_wavelengths)(lambda, density, u.data(), d, kCount, kAll);
+      (visible ? t.visible_wavelengths : t.even_wavelengths)(out[0].data(), out[1].data(), u.data(), d,
+                                                             kCount, kAll / kernels::kLanes);
     };
     draw(k(), got);
     draw(ref(), want);
@@ -98,16 +93,11 @@ TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
     for (std::size_t i = 0; i < kCount * kAll; i += 7) got[1][i] = 0;  // terminated
     const Floats values = arbitrary_floats(kCount * kAll, 8);
     const auto project = [&](const kernels::KernelTable& t, Floats& out) {
-      const float* rows[3][kCount];
-      for (std::size_t k = 0; k < kCount; ++k) {
-        rows[0][k] = values.data() + k * kAll;
-        rows[1][k] = got[0].data() + k * kAll;
-        rows[2][k] = got[1].data() + k * kAll;
-      }
       kernels::EvenTable curves[3];
       for (std::size_t c = 0; c < 3; ++c) curves[c] = {pairs.data() + c * 2 * 470, 360, 1, 470};
       float* const dst[3] = {out.data(), out.data() + kAll, out.data() + 2 * kAll};
-      t.project_wavelengths(dst, {rows[0], rows[1], rows[2], kCount}, curves, 0.2F, kAll);
+      t.project_wavelengths(dst, {values.data(), got[0].data(), got[1].data(), kCount}, curves, 0.2F,
+                            kAll / kernels::kLanes);
     };
     Floats sums(3 * kAll);
     Floats expected(3 * kAll);

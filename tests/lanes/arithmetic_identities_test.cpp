@@ -15,7 +15,7 @@ Bands few_bands() {
 
 template <class Operation>
 SampledSpectra result_of(const SampledSpectra& a, Operation operation) {
-  auto out = *SampledSpectra::create(a.bands(), a.lanes());
+  auto out = *SampledSpectra::create(a.axis(), a.lanes());
   const Execution execution = drawn_execution();
   RC_ASSERT(bool(operation(out.span(), execution)));
   return out;
@@ -44,7 +44,7 @@ std::int64_t steps_between(float a, float b) {
 std::int64_t most_steps(const SampledSpectra& a, const SampledSpectra& b) {
   std::int64_t most = 0;
   for (std::size_t i = 0; i < a.lanes(); ++i) {
-    for (std::size_t k = 0; k < a.bands().count(); ++k) {
+    for (std::size_t k = 0; k < a.axis().count(); ++k) {
       const float x = a.at(i, k);
       const float y = b.at(i, k);
       if (std::isnan(x) && std::isnan(y)) continue;
@@ -128,13 +128,13 @@ Ascending drawn_ascending(std::size_t lanes, float least, float most) {
   std::mt19937 random = drawn_random();
   std::uniform_real_distribution<float> range(least, most);
   for (std::size_t i = 0; i < lanes; ++i) {
-    for (std::size_t k = 0; k < low.bands().count(); ++k) {
+    for (std::size_t k = 0; k < low.axis().count(); ++k) {
       // A third over the whole range, a third of any magnitude.
       float a = range(random);
       if (random() % 3 == 0) a = std::ldexp(a, -static_cast<int>(random() % 150));
       const float b = random() % 2 == 0 ? std::nextafter(a, kInf) : std::max(least, range(random));
-      low.set(i, k, std::min(a, b));
-      high.set(i, k, std::max(a, b));
+      low.at(i, k) = std::min(a, b);
+      high.at(i, k) = std::max(a, b);
     }
   }
   return {std::move(low), std::move(high)};
@@ -148,7 +148,7 @@ std::pair<std::int64_t, bool> falls(const Ascending& x, const SampledSpectra& lo
   std::int64_t most = 0;
   bool clearly = false;
   for (std::size_t i = 0; i < low.lanes(); ++i) {
-    for (std::size_t k = 0; k < low.bands().count(); ++k) {
+    for (std::size_t k = 0; k < low.axis().count(); ++k) {
       const float a = low.at(i, k);
       const float b = high.at(i, k);
       if (a <= b) continue;

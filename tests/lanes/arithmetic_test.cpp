@@ -127,14 +127,14 @@ TEST(Arithmetic, OtherBandsAreAnError) {
   // As many bands, elsewhere.
   const auto c = *SampledSpectra::create(*Bands::uniform(401, 701, 5), 17);
   for (const Operation& op : operations()) {
-    auto out = *SampledSpectra::constant(a.bands(), 17, 3.0F);
+    auto out = *SampledSpectra::constant(a.axis(), 17, 3.0F);
     EXPECT_EQ(code_of(op.run(b.view(), b.view(), b.view(), out.span(), {})), code(ErrorCode::kBandsMismatch))
         << op.name;
     EXPECT_EQ(code_of(op.run(c.view(), c.view(), c.view(), out.span(), {})), code(ErrorCode::kBandsMismatch))
         << op.name;
     EXPECT_EQ(out.at(16, 59), 3.0F) << op.name << " wrote";
   }
-  auto out = *SampledSpectra::create(a.bands(), 17);
+  auto out = *SampledSpectra::create(a.axis(), 17);
   EXPECT_EQ(code_of(add(a.view(), b.view(), out.span())), code(ErrorCode::kBandsMismatch));
   EXPECT_EQ(code_of(multiply_add(a.view(), a.view(), c.view(), out.span())), code(ErrorCode::kBandsMismatch));
   EXPECT_EQ(code_of(equal(a.view(), b.view())), code(ErrorCode::kBandsMismatch));
@@ -197,7 +197,7 @@ TEST(Arithmetic, DivideOrZeroGivesZeroForZerosOfEitherSign) {
   for (const float a : numerators) {
     auto x = *SampledSpectra::constant(bands, 1, a);
     auto y = *SampledSpectra::constant(bands, 1, 0.0F);
-    y.set(0, 1, -0.0F);
+    y.at(0, 1) = -0.0F;
     ASSERT_TRUE(divide_or_zero(x.view(), y.view(), y.span()));
     EXPECT_TRUE(same_bits(y.at(0, 0), 0.0F)) << a;
     EXPECT_TRUE(same_bits(y.at(0, 1), 0.0F)) << a;
@@ -211,7 +211,7 @@ TEST(Arithmetic, DivideOrZeroGivesZeroForZerosOfEitherSign) {
 TEST(Arithmetic, NegateFlipsTheSignOfZeroAndNan) {
   const Bands bands = *Bands::parse("500,510");
   auto a = *SampledSpectra::constant(bands, 1, 0.0F);
-  a.set(0, 1, std::copysign(kNan, 1.0F));
+  a.at(0, 1) = std::copysign(kNan, 1.0F);
   ASSERT_TRUE(negate(a.view(), a.span()));
   EXPECT_TRUE(std::signbit(a.at(0, 0)));
   EXPECT_TRUE(std::isnan(a.at(0, 1)));

@@ -26,8 +26,8 @@ struct Operands {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       numbers[lane] = drawn[next++];
       for (std::size_t band = 0; band < bands.count(); ++band) {
-        a.set(lane, band, drawn[next++]);
-        b.set(lane, band, drawn[next++]);
+        a.at(lane, band) = drawn[next++];
+        b.at(lane, band) = drawn[next++];
       }
     }
   }
@@ -35,7 +35,7 @@ struct Operands {
   template <class F>
   void expect_result(F f) const {
     for (std::size_t lane = 0; lane < a.lanes(); ++lane) {
-      for (std::size_t band = 0; band < a.bands().count(); ++band) {
+      for (std::size_t band = 0; band < a.axis().count(); ++band) {
         const float want = f(a.at(lane, band), b.at(lane, band), numbers[lane], band);
         const float got = out.at(lane, band);
         ASSERT_TRUE(got == want || (std::isnan(got) && std::isnan(want)))
@@ -93,10 +93,10 @@ TEST(Transmittance, IsExpWithinElevenTenthsOfAnUlp) {
     for (std::size_t i = 0; i < kMany; ++i) {
       // Products from -89 to 104, of factors of all sizes.
       const float size = std::exp2(60 * uniform(random) - 30);
-      sigma.set(i, 0, size);
+      sigma.at(i, 0) = size;
       distance[i] = (193 * uniform(random) - 89) / size;
     }
-    auto out = *SampledSpectra::create(sigma.bands(), kMany);
+    auto out = *SampledSpectra::create(sigma.axis(), kMany);
     ASSERT_TRUE(transmittance(sigma.view(), distance.view(), out.span()));
     for (std::size_t i = 0; i < kMany; ++i) {
       const double want = std::exp(-(static_cast<double>(sigma.at(i, 0)) * static_cast<double>(distance[i])));
@@ -120,7 +120,7 @@ TEST(Transmittance, EndsAreZeroOneInfinityAndNan) {
   auto sigma = *SampledSpectra::create(*Bands::uniform(400, 700, 300), kCases);
   auto distance = *ScalarLanes::create(kCases);
   for (std::size_t i = 0; i < kCases; ++i) {
-    sigma.set(i, 0, cases[i][0]);
+    sigma.at(i, 0) = cases[i][0];
     distance[i] = cases[i][1];
   }
   ASSERT_TRUE(transmittance(sigma.view(), distance.view(), sigma.span()));
@@ -158,9 +158,9 @@ TEST(SampledSpectraClone, IsAnotherBatchWithTheSameSamples) {
   auto a = *SampledSpectra::constant(*Bands::uniform(400, 700, 100), 70, 0.25F);
   const auto copy = *a.clone();
   EXPECT_EQ(copy.lanes(), 70U);
-  EXPECT_EQ(copy.bands(), a.bands());
+  EXPECT_EQ(copy.axis(), a.axis());
   EXPECT_TRUE(*equal(a.view(), copy.view()));
-  a.set(69, 2, 1);
+  a.at(69, 2) = 1;
   EXPECT_EQ(copy.at(69, 2), 0.25F);
 }
 

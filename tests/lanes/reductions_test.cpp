@@ -31,7 +31,7 @@ TEST(Lanes, MasksFollowTheirDefinitionAndPaddingBitsAreZero) {
   for (const std::size_t lanes : kSizes) {
     const auto a = half_black(bands, lanes);
     auto b = half_black(bands, lanes);
-    for (std::size_t lane = 0; lane < lanes; lane += 5) b.set(lane, 2, 7.0F);
+    for (std::size_t lane = 0; lane < lanes; lane += 5) b.at(lane, 2) = 7.0F;
     const auto black = *is_black(a.view());
     const auto nan = *has_nan(a.view());
     const auto same = *equal_lanes(a.view(), b.view());
@@ -60,7 +60,7 @@ TEST(Lanes, MasksIgnoreWhatThePaddingHolds) {
   for (const std::size_t lanes : kSizes) {
     auto a = *SampledSpectra::create(bands, lanes);
     auto b = *SampledSpectra::create(bands, lanes);
-    for (std::size_t lane = lanes; lane < 64 * a.blocks(); ++lane) a.set(lane, 1, kNan);
+    for (std::size_t lane = lanes; lane < 64 * a.blocks(); ++lane) a.at(lane, 1) = kNan;
     LaneMask all(a.blocks(), ~std::uint64_t{0});
     if (lanes % 64 != 0) all.back() = (std::uint64_t{1} << lanes % 64) - 1;
     EXPECT_EQ(*is_black(a.view()), all);
@@ -78,9 +78,9 @@ TEST(Lanes, EqualityFollowsTheNumbersAndNotTheBits) {
   EXPECT_TRUE(*equal(zero.view(), minus.view()));
   for (std::size_t lane = 0; lane < 65; ++lane) {
     auto other = *SampledSpectra::constant(bands, 65, 0.0F);
-    other.set(lane, 1, kTiny);
+    other.at(lane, 1) = kTiny;
     ASSERT_FALSE(*equal(zero.view(), other.view())) << lane;
-    other.set(lane, 1, kNan);
+    other.at(lane, 1) = kNan;
     ASSERT_FALSE(*equal(other.view(), other.view())) << lane;
     ASSERT_FALSE(bit(*equal_lanes(other.view(), other.view()), lane));
     ASSERT_FALSE(bit(*is_black(other.view()), lane));
@@ -95,7 +95,7 @@ TEST(Lanes, ExtremesPassOverNan) {
   const float least[4] = {-1, 3, kInf, -kInf};
   const float most[4] = {2, 3, -kInf, kInf};
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    for (std::size_t band = 0; band < 3; ++band) a.set(lane, band, rows[lane][band]);
+    for (std::size_t band = 0; band < 3; ++band) a.at(lane, band) = rows[lane][band];
   }
   auto low = *ScalarLanes::create(4);
   auto high = *ScalarLanes::create(4);
@@ -155,8 +155,8 @@ TEST(Lanes, AverageIsWithinItsBoundOfTheDoubleSum) {
 
 TEST(Lanes, AverageLetsNanAndInfinitiesThrough) {
   auto a = *SampledSpectra::constant(Bands(), 3, 1.0F);
-  a.set(0, 7, kNan);
-  a.set(1, 7, kInf);
+  a.at(0, 7) = kNan;
+  a.at(1, 7) = kInf;
   auto out = *ScalarLanes::create(3);
   ASSERT_TRUE(average(a.view(), out.span()));
   EXPECT_TRUE(std::isnan(out[0]));

@@ -16,12 +16,12 @@ constexpr double kU = 0x1p-24;
 
 /// Lanes with wavelengths from low to high in random order, and the values that a spectrum has there.
 struct Looked {
-  WavelengthLanes lambda, values;
+  SampledSpectra lambda, values;
 };
 
 Looked look_up(const Spectrum& spectrum, double low, double high, std::size_t lanes = 4099,
                std::size_t count = 4) {
-  Looked out{*WavelengthLanes::create(lanes, count), *WavelengthLanes::create(lanes, count)};
+  Looked out{own_batch(lanes, count), own_batch(lanes, count)};
   std::mt19937 random(11);
   std::uniform_real_distribution<float> nm(static_cast<float>(low), static_cast<float>(high));
   for (std::size_t i = 0; i < lanes * count; ++i) out.lambda.at(i % lanes, i / lanes) = nm(random);
@@ -42,8 +42,8 @@ void expect_within(const Spectrum& spectrum, double low, double high, double rel
 }
 
 float looked_up(const Spectrum& spectrum, float nm) {
-  auto lambda = *WavelengthLanes::create(1, 1);
-  auto value = *WavelengthLanes::create(1, 1);
+  auto lambda = own_batch(1, 1);
+  auto value = own_batch(1, 1);
   lambda.at(0, 0) = nm;
   EXPECT_TRUE(sample(spectrum, lambda.view(), value.span()));
   return value.at(0, 0);
@@ -91,8 +91,8 @@ TEST(SpectrumSampler, AnyPiecewiseLinearTableIsFound) {
     }
     const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);
     const auto sampler = *SpectrumSampler::create(s);
-    auto lambda = *WavelengthLanes::create(256, 1);
-    auto values = *WavelengthLanes::create(256, 1);
+    auto lambda = own_batch(256, 1);
+    auto values = own_batch(256, 1);
     for (std::size_t i = 0; i < 256; ++i) {
       lambda.at(i, 0) = i < nm.size()
                             ? static_cast<float>(nm[i])
@@ -108,7 +108,7 @@ TEST(SpectrumSampler, AnyPiecewiseLinearTableIsFound) {
 TEST(SpectrumSampler, ResultsDependOnNeitherThreadsNorTiles) {
   const Spectrum s = PiecewiseLinearSpectrum(*illuminant("FL11"));
   const Looked want = look_up(s, 300, 900);
-  auto values = *WavelengthLanes::create(4099, 4);
+  auto values = own_batch(4099, 4);
   for (const int threads : {1, 2, 5}) {
     ASSERT_TRUE(sample(s, want.lambda.view(), values.span(), {threads, 64}));
     for (std::size_t i = 0; i < 4 * 4099; ++i) {
@@ -119,19 +119,19 @@ TEST(SpectrumSampler, ResultsDependOnNeitherThreadsNorTiles) {
 
 TEST(SpectrumSampler, BatchesThatDoNotFitAreErrors) {
   const auto sampler = *SpectrumSampler::create(ConstantSpectrum(1));
-  auto four = *WavelengthLanes::create(64, 4);
-  auto five = *WavelengthLanes::create(64, 5);
-  auto more = *WavelengthLanes::create(65, 4);
+  auto four = own_batch(64, 4);
+  auto five = own_batch(64, 5);
+  auto more = own_batch(65, 4);
   EXPECT_FALSE(sampler.sample(four.view(), five.span()));
   EXPECT_FALSE(sampler.sample(four.view(), more.span()));
-  EXPECT_FALSE(WavelengthLanes::create(64, 0));
-  EXPECT_FALSE(WavelengthLanes::create(64, 65));
+  EXPECT_FALSE(SpectralAxis::own_wavelengths(0));
+  EXPECT_FALSE(SpectralAxis::own_wavelengths(65));
 }
 
 TEST(SpectrumSampler, TablesAtEveryNanometreEndWithTheirLastSample) {
   const auto s = *DenselySampledSpectrum::from_values(500, {1, 2, 4, 8});
-  auto lambda = *WavelengthLanes::create(6, 1);
-  auto values = *WavelengthLanes::create(6, 1);
+  auto lambda = own_batch(6, 1);
+  auto values = own_batch(6, 1);
   const float nm[] = {std::nextafter(500.0F, 0.0F), 500, 501, 502.5F, 503, std::nextafter(503.0F, 1000.0F)};
   const float want[] = {0, 1, 2, 6, 8, 0};
   for (std::size_t i = 0; i < 6; ++i) lambda.at(i, 0) = nm[i];
@@ -157,8 +157,8 @@ TEST(SpectrumSampler, TablesOfAnyShapeAreWithinFourUnits) {
         at += steps[shape];
       }
       const auto s = *PiecewiseLinearSpectrum::from_samples(nm, v);
-      auto lambda = *WavelengthLanes::create(1024, 1);
-      auto values = *WavelengthLanes::create(1024, 1);
+      auto lambda = own_batch(1024, 1);
+      auto values = own_batch(1024, 1);
       for (std::size_t i = 0; i < 1024; ++i) {
         const std::size_t k = random() % (count - 1);
         lambda.at(i, 0) = static_cast<float>(nm[k] + (i % 2 == 0 ? 0 : unit(random)) * (nm[k + 1] - nm[k]));
@@ -202,8 +202,8 @@ TEST(SpectrumSampler, KnotsThatAreNoFloatsAreWithinTheBoundForThoseRoundedToFloa
   }
   const auto sampler = *SpectrumSampler::create(*PiecewiseLinearSpectrum::from_samples(nm, v));
   const auto want = *PiecewiseLinearSpectrum::from_samples(rounded, v);
-  auto lambda = *WavelengthLanes::create(4096, 1);
-  auto values = *WavelengthLanes::create(4096, 1);
+  auto lambda = own_batch(4096, 1);
+  auto values = own_batch(4096, 1);
   for (std::size_t i = 0; i < 4096; ++i) {
     lambda.at(i, 0) = static_cast<float>(nm.front() + (nm.back() - nm.front()) * unit(random));
   }

@@ -83,7 +83,7 @@ TEST(TerminateSecondary, OnlyTheFirstCountsAndOnce) {
   EXPECT_EQ(secondary_terminated(w), LaneMask{0b111});
   EXPECT_EQ(terminate_secondary(w, LaneMask{0, 0}).error().code, ErrorCode::kSizeMismatch);
   // A terminated wavelength's radiance does not matter, not even when it is none.
-  auto radiance = *WavelengthLanes::create(3, 4);
+  auto radiance = own_batch(3, 4);
   for (std::size_t i = 0; i < 12; ++i) radiance.at(i % 3, i / 3) = i < 3 ? 2.0F : kNan;
   auto xyz = *ColorLanes::create(3);
   ASSERT_TRUE(project(*ResponseCurves::of_observer(), radiance.view(), w, xyz.span()));
@@ -178,7 +178,7 @@ TEST(SampledWavelengths, AreTheSameBitsOnEveryInstructionSetThroughThePublicCall
             u[i] = i % 5 == 0 ? odd_u[random() % std::size(odd_u)] : unit(random);
           std::vector<float> got;
           auto w = *SampledWavelengths::create(lanes, count);
-          auto radiance = *WavelengthLanes::create(lanes, count);
+          auto radiance = own_batch(lanes, count);
           auto color = *ColorLanes::create(lanes);
           for (const auto sampling : {WavelengthSampling::kUniform, WavelengthSampling::kVisible}) {
             ASSERT_TRUE(sample_wavelengths(sampling, u.view(), w, 360, 830, execution));

@@ -15,7 +15,7 @@ SampledSpectra lit(const Bands& bands, const std::string& light, std::size_t lan
 }
 
 SampledSpectra product_of(const SampledSpectra& a, const SampledSpectra& b) {
-  auto out = *SampledSpectra::create(a.bands(), a.lanes());
+  auto out = *SampledSpectra::create(a.axis(), a.lanes());
   RC_ASSERT(bool(multiply(a.view(), b.view(), out.span(), drawn_execution())));
   return out;
 }
@@ -35,7 +35,7 @@ std::pair<float, float> extremes(const SampledSpectra& spectra) {
   float least = kInf;
   float greatest = -kInf;
   for (std::size_t i = 0; i < spectra.lanes(); ++i) {
-    for (std::size_t b = 0; b < spectra.bands().count(); ++b) {
+    for (std::size_t b = 0; b < spectra.axis().count(); ++b) {
       const float v = spectra.at(i, b);
       least = std::isnan(v) ? -kInf : std::min(least, v);
       greatest = std::max(greatest, v);
@@ -151,7 +151,7 @@ RC_GTEST_PROP(EnergyConservation, LighterGreysHaveNoSmallerSamplesInMixtures, ()
   const auto high = upsampled(upsampler, light);
   float fall = 0;
   for (std::size_t i = 0; i < low.lanes(); ++i) {
-    for (std::size_t b = 0; b < low.bands().count(); ++b) fall = std::max(fall, low.at(i, b) - high.at(i, b));
+    for (std::size_t b = 0; b < low.axis().count(); ++b) fall = std::max(fall, low.at(i, b) - high.at(i, b));
   }
   RC_ASSERT(fall == 0.0F);
 }
@@ -169,7 +169,7 @@ RC_GTEST_PROP(EnergyConservation, LighterGreysHaveNoSmallerSamplesButRoundingInS
   constexpr double kShape = (4 * 0.193 + 2) * kU * kHigherOrders;
   Worst worst;
   for (std::size_t i = 0; i < low.lanes(); ++i) {
-    for (std::size_t b = 0; b < low.bands().count(); ++b) {
+    for (std::size_t b = 0; b < low.axis().count(); ++b) {
       const double fall = std::max(0.0, double(low.at(i, b)) - high.at(i, b));
       const double scaled = 2 * ((kShape + kU) / 0.5 + 2 * kU) * low.at(i, b);
       worst.add(fall, quantity == Quantity::kReflectance ? 2 * kShape : scaled);

@@ -10,7 +10,7 @@ namespace {
 ColorLanes projected(const WavelengthSamples& samples) {
   const std::size_t n = samples.x.size();
   auto wavelengths = *SampledWavelengths::create(n, samples.radiance.count);
-  auto radiance = *WavelengthLanes::create(n, samples.radiance.count);
+  auto radiance = own_batch(n, samples.radiance.count);
   for (std::size_t k = 0; k < samples.radiance.count; ++k) {
     for (std::size_t i = 0; i < n; ++i) {
       radiance.at(i, k) = of_row(samples.radiance, k, i);

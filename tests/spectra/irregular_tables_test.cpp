@@ -111,8 +111,8 @@ TEST(IrregularTables, AveragesAreTheOracles) {
 TEST(IrregularTables, InterpolationIsTheOraclesOneByOneAndInBatches) {
   std::mt19937 random(20260102);
   std::uniform_real_distribution<double> unit(0, 1);
-  auto lambda = *WavelengthLanes::create(64, 1);
-  auto values = *WavelengthLanes::create(64, 1);
+  auto lambda = own_batch(64, 1);
+  auto values = own_batch(64, 1);
   for (int n = 0; n < 10000; ++n) {
     Table t = any_table(random);
     for (double& nm : t.nm) nm = static_cast<float>(nm);  // where the batch has its knots too

@@ -46,8 +46,8 @@ TEST(UpsampledSpectrum, EveryMethodAndQuantityOfEveryKindOfColor) {
         double sum = 0;
         for (int i = 0; i < 47000; ++i) sum += (*s)(360 + (i + 0.5) / 100) / 100;
         ASSERT_NEAR(s->integral(360, 830), sum, 2e-7 * std::abs(sum) + 1e-20) << what;
-        auto lambda = *WavelengthLanes::create(256, 1);
-        auto values = *WavelengthLanes::create(256, 1);
+        auto lambda = own_batch(256, 1);
+        auto values = own_batch(256, 1);
         for (std::size_t i = 0; i < 256; ++i) lambda.at(i, 0) = static_cast<float>(350 + 2 * i);
         ASSERT_TRUE(sample(*s, lambda.view(), values.span()));
         for (std::size_t i = 0; i < 256; ++i) {

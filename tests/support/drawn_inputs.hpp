@@ -98,7 +98,7 @@ inline ColorLanes permuted(const ColorLanes& from, const std::vector<std::size_t
   return out;
 }
 inline SampledSpectra permuted(const SampledSpectra& from, const std::vector<std::size_t>& order) {
-  return batch_of(from.bands(), from.lanes(),
+  return batch_of(from.axis(), from.lanes(),
                   [&](std::size_t lane, std::size_t band) { return from.at(order[lane], band); });
 }
 inline bool same_colors(const ColorLanes& a, const ColorLanes& b) {

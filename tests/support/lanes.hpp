@@ -141,7 +141,7 @@ inline testing::AssertionResult same_bits(const Floats& got, const Floats& want)
 /// The lanes of two batches, padding left out.
 inline testing::AssertionResult same_lanes(const SampledSpectra& got, const SampledSpectra& want) {
   for (std::size_t lane = 0; lane < want.lanes(); ++lane) {
-    for (std::size_t band = 0; band < want.bands().count(); ++band) {
+    for (std::size_t band = 0; band < want.axis().count(); ++band) {
       if (same_bits(got.at(lane, band), want.at(lane, band))) continue;
       return testing::AssertionFailure() << "lane " << lane << " band " << band << " is "
                                          << got.at(lane, band) << ", not " << want.at(lane, band);
@@ -150,12 +150,17 @@ inline testing::AssertionResult same_lanes(const SampledSpectra& got, const Samp
   return testing::AssertionSuccess();
 }
 
-/// A batch with samples from `fill(lane, band)`.
+/// A batch at wavelengths of each lane's own, 0 at first.
+inline SampledSpectra own_batch(std::size_t lanes, std::size_t wavelengths) {
+  return *SampledSpectra::create(*SpectralAxis::own_wavelengths(wavelengths), lanes);
+}
+
+/// A batch with samples from `fill(lane, sample)`.
 template <class Fill>
-SampledSpectra batch_of(const Bands& bands, std::size_t lanes, Fill fill) {
-  auto batch = *SampledSpectra::create(bands, lanes);
+SampledSpectra batch_of(const SpectralAxis& axis, std::size_t lanes, Fill fill) {
+  auto batch = *SampledSpectra::create(axis, lanes);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    for (std::size_t band = 0; band < bands.count(); ++band) batch.set(lane, band, fill(lane, band));
+    for (std::size_t k = 0; k < axis.count(); ++k) batch.at(lane, k) = fill(lane, k);
   }
   return batch;
 }

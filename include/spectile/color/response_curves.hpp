@@ -28,10 +28,12 @@ class ResponseCurves {
 /// Radiance at K sampled wavelengths a lane to XYZ or sensor RGB: the mean over k of curve(lambda_k) *
 /// radiance_k / density_k. Unbiased for wavelengths drawn with those densities; a terminated wavelength adds
 /// nothing, whatever its radiance.
-/// Shapes: radiance [k][lanes], color three times [lanes].
+/// Shapes: radiance on the axis of the wavelengths, color three times [lanes].
 /// Numbers: error below (K + 6) u of the sum of the magnitudes, each with the larger value of the curve at
-/// the nanometres beside the wavelength; NaN and infinities go through. Errors: kSizeMismatch.
-Result<void> project(const ResponseCurves& curves, WavelengthView radiance,
-                     const SampledWavelengths& wavelengths, ColorSpan color, const Execution& execution = {});
+/// the nanometres beside the wavelength; NaN and infinities go through. Errors: kBandsMismatch,
+/// kSizeMismatch.
+Result<void> project(const ResponseCurves& curves, SampledSpectraView radiance,
+                     const SampledWavelengthsView& wavelengths, ColorSpan color,
+                     const Execution& execution = {});
 
 }  // namespace spectile

@@ -17,7 +17,7 @@
 #include <spectile/color/colorimetry.hpp>
 #include <spectile/color/sensor.hpp>
 #include <spectile/film/pixel_filter.hpp>
-#include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/lanes/wavelengths.hpp>
 #include <spectile/pixel_window.hpp>
 #include <spectile/result.hpp>
 #include <spectile/spectra/bands.hpp>
@@ -47,6 +47,11 @@ struct WavelengthSamples {
 struct BandSamples {
   std::span<const float> x, y, weight;
   RowsView radiance;
+};
+
+/// Positions and weights of samples. Shapes: as above.
+struct SamplePositions {
+  std::span<const float> x, y, weight;
 };
 
 /// The kind of samples that a film takes.
@@ -144,6 +149,11 @@ class Film {
   /// kUnavailable once a pixel's sum has gone beyond what it can hold.
   Result<void> add(const WavelengthSamples& samples, const Execution& execution = {1});
   Result<void> add(const BandSamples& samples, const Execution& execution = {1});
+  /// The same for batches: radiance at sampled wavelengths, or on the film's bands. Shapes: a lane a
+  /// position.
+  Result<void> add(const SamplePositions& at, SampledSpectraView radiance,
+                   const SampledWavelengthsView& wavelengths, const Execution& execution = {1});
+  Result<void> add(const SamplePositions& at, SampledSpectraView radiance, const Execution& execution = {1});
 
   /// Adds another film's sums to this one's: the very bits of one film fed with both's samples.
   /// Errors: kBadArgument where an option differs, saying which, and when both are one film; kOutOfMemory.

@@ -1,6 +1,7 @@
-// Element-wise arithmetic over whole batches of spectra, and reductions over the bands of each lane.
+// Element-wise arithmetic over whole batches of spectra, and reductions over the samples of each lane.
 //
-// Rules common to all. Shapes: every batch has the same lanes and bands; `out` may be one of the inputs.
+// Rules common to all. Shapes: every batch has the same lanes and samples, on bands or at
+// wavelengths of each lane's own; `out` may be one of the inputs.
 // Numbers: float32 as IEEE 754 says, each operation rounded once; NaN and infinities go through. Errors:
 // kBandsMismatch, kSizeMismatch, and those of active_isa(). Padding lanes are computed too and mean nothing.
 #pragma once
@@ -34,7 +35,8 @@ Result<void> scale(SampledSpectraView a, float factor, SampledSpectraSpan out,
 /// out = a * the lane's own factor: a cosine, one over a density. Shapes: factor [lanes].
 Result<void> scale(SampledSpectraView a, LanesView factor, SampledSpectraSpan out,
                    const Execution& execution = {});
-/// out = a * one spectrum for all lanes. Shapes: spectrum [bands], any alignment.
+/// out = a * one spectrum for all lanes. Shapes: spectrum [samples], any
+/// alignment.
 Result<void> multiply(SampledSpectraView a, std::span<const float> spectrum, SampledSpectraSpan out,
                       const Execution& execution = {});
 /// out = 1 - a.
@@ -71,15 +73,16 @@ Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Exec
 Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 /// out[lane] = greatest sample; NaN is passed over, and a lane of nothing but NaN gives -infinity.
 Result<void> maximum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
-/// out[lane] = average over wavelength: samples weighted with their bands' widths; relative error at most
-/// (bands + 1) * 2^-24 for samples of one sign. Errors: kBadArgument for bands that overlap.
+/// out[lane] = average over wavelength: samples on bands weighted with their widths, those at wavelengths of
+/// the lane's own alike; relative error at most (samples + 1) * 2^-24 for samples of one sign. Errors:
+/// kBadArgument for bands that overlap.
 Result<void> average(SampledSpectraView a, LanesSpan out, const Execution& execution = {});
 
 /// Lanes whose samples are all 0 (of either sign).
 Result<LaneMask> is_black(SampledSpectraView a, const Execution& execution = {});
 /// Lanes with at least one NaN sample.
 Result<LaneMask> has_nan(SampledSpectraView a, const Execution& execution = {});
-/// Lanes equal in every band (NaN equals nothing, +0 equals -0).
+/// Lanes equal in every sample (NaN equals nothing, +0 equals -0).
 Result<LaneMask> equal_lanes(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});
 /// True if every lane is equal.
 Result<bool> equal(SampledSpectraView a, SampledSpectraView b, const Execution& execution = {});

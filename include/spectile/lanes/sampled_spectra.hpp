@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <span>
 #include <spectile/float_buffer.hpp>
+#include <spectile/lanes/spectral_axis.hpp>
 #include <spectile/result.hpp>
-#include <spectile/spectra/bands.hpp>
+#include <type_traits>
 #include <vector>
 
 namespace spectile {
 
-/// Lanes in one block; a block is [band][kLanesPerBlock] floats.
+/// Lanes in one block; a block is [sample][kLanesPerBlock] floats.
 inline constexpr std::size_t kLanesPerBlock = 64;
 
 /// Blocks needed for `lanes` lanes.
@@ -19,44 +20,42 @@ constexpr std::size_t blocks_for(std::size_t lanes) noexcept {
   return (lanes + kLanesPerBlock - 1) / kLanesPerBlock;
 }
 
-/// Read-only view of a batch. Shapes: data [block][band][64], 64-byte aligned, the last block padded.
-struct SampledSpectraView {
-  const float* data = nullptr;
+/// View of a batch: n lanes of K samples, on bands or at each lane's own wavelengths. Shapes: data
+/// [block][sample][64], 64-byte aligned, the last block padded. No access is checked against the bounds.
+template <class Float>
+struct BatchView {
+  Float* data = nullptr;
   std::size_t lanes = 0;
-  Bands bands;
+  SpectralAxis axis;
+
   std::size_t blocks() const noexcept { return blocks_for(lanes); }
-  std::size_t floats() const noexcept { return blocks() * bands.count() * kLanesPerBlock; }
-  float at(std::size_t lane, std::size_t band) const noexcept {
-    return data[((lane / kLanesPerBlock) * bands.count() + band) * kLanesPerBlock + lane % kLanesPerBlock];
+  std::size_t floats() const noexcept { return blocks() * axis.count() * kLanesPerBlock; }
+  /// Sample k of 64 lanes. Shapes: [64].
+  Float* row(std::size_t block, std::size_t k) const noexcept {
+    return data + (block * axis.count() + k) * kLanesPerBlock;
   }
-  /// A range of the lanes without a copy: whole blocks, or up to the last lane. No bounds check.
-  SampledSpectraView range(std::size_t first, std::size_t count) const {
-    return {data + first * bands.count(), count, bands};
+  Float& at(std::size_t lane, std::size_t k) const noexcept {
+    return row(lane / kLanesPerBlock, k)[lane % kLanesPerBlock];
   }
+  /// A range of the lanes without a copy: whole blocks, or up to the last lane.
+  BatchView range(std::size_t first, std::size_t count) const {
+    return {data + first * axis.count(), count, axis};
+  }
+  operator BatchView<const Float>() const requires(!std::is_const_v<Float>) { return {data, lanes, axis}; }
 };
+using SampledSpectraView = BatchView<const float>;  ///< to read
+using SampledSpectraSpan = BatchView<float>;        ///< to write
 
-/// Writable view of a batch; shapes as in SampledSpectraView.
-struct SampledSpectraSpan {
-  float* data = nullptr;
-  std::size_t lanes = 0;
-  Bands bands;
-  operator SampledSpectraView() const { return {data, lanes, bands}; }
-  /// As SampledSpectraView::range().
-  SampledSpectraSpan range(std::size_t first, std::size_t count) const {
-    return {data + first * bands.count(), count, bands};
-  }
-};
-
-/// An owning batch of `lanes` sampled spectra on common bands.
+/// Owner of a batch of `lanes` sampled spectra on one axis.
 class SampledSpectra {
  public:
   /// A batch with every sample zero, padding included. Errors: kOutOfMemory.
-  static Result<SampledSpectra> create(const Bands& bands, std::size_t lanes);
+  static Result<SampledSpectra> create(const SpectralAxis& axis, std::size_t lanes);
   /// A batch with every sample equal to `value`. Errors: kOutOfMemory.
-  static Result<SampledSpectra> constant(const Bands& bands, std::size_t lanes, float value);
-  /// A batch with every lane the same spectrum, one value a band.
-  /// Errors: kBandsMismatch when the count of values differs from that of bands; kOutOfMemory.
-  static Result<SampledSpectra> broadcast(const Bands& bands, std::size_t lanes,
+  static Result<SampledSpectra> constant(const SpectralAxis& axis, std::size_t lanes, float value);
+  /// A batch with every lane the same samples. Shapes: values [samples].
+  /// Errors: kBandsMismatch when the count of values differs from that of the axis; kOutOfMemory.
+  static Result<SampledSpectra> broadcast(const SpectralAxis& axis, std::size_t lanes,
                                           std::span<const float> values);
 
   /// A copy of the batch. Errors: kOutOfMemory.
@@ -64,21 +63,23 @@ class SampledSpectra {
 
   std::size_t lanes() const noexcept { return lanes_; }
   std::size_t blocks() const noexcept { return blocks_for(lanes_); }
-  const Bands& bands() const noexcept { return bands_; }
-  SampledSpectraSpan span() { return {buffer_.data(), lanes_, bands_}; }
-  SampledSpectraView view() const { return {buffer_.data(), lanes_, bands_}; }
+  const SpectralAxis& axis() const noexcept { return axis_; }
+  SampledSpectraSpan span() { return {buffer_.data(), lanes_, axis_}; }
+  SampledSpectraView view() const { return {buffer_.data(), lanes_, axis_}; }
+  operator SampledSpectraSpan() { return span(); }
+  operator SampledSpectraView() const { return view(); }
 
   /// One sample; no bounds check.
-  float at(std::size_t lane, std::size_t band) const noexcept { return buffer_.data()[index(lane, band)]; }
-  void set(std::size_t lane, std::size_t band, float v) noexcept { buffer_.data()[index(lane, band)] = v; }
+  float& at(std::size_t lane, std::size_t k) noexcept { return buffer_.data()[index(lane, k)]; }
+  float at(std::size_t lane, std::size_t k) const noexcept { return buffer_.data()[index(lane, k)]; }
 
  private:
-  std::size_t index(std::size_t lane, std::size_t band) const noexcept {
-    return ((lane / kLanesPerBlock) * bands_.count() + band) * kLanesPerBlock + lane % kLanesPerBlock;
+  std::size_t index(std::size_t lane, std::size_t k) const noexcept {
+    return ((lane / kLanesPerBlock) * axis_.count() + k) * kLanesPerBlock + lane % kLanesPerBlock;
   }
   FloatBuffer buffer_;
   std::size_t lanes_ = 0;
-  Bands bands_;
+  SpectralAxis axis_;
 };
 
 /// Read-only view of one float a lane, padded to whole blocks. Shapes: data [lanes rounded up to 64], 64-byte
@@ -86,6 +87,7 @@ class SampledSpectra {
 struct LanesView {
   const float* data = nullptr;
   std::size_t lanes = 0;
+  operator std::span<const float>() const noexcept { return {data, lanes}; }
 };
 
 /// Writable view of one float a lane; shapes as in LanesView.
@@ -115,6 +117,9 @@ class ScalarLanes {
   static Result<ScalarLanes> create(std::size_t lanes);
   LanesSpan span() noexcept { return {buffer_.data(), lanes_}; }
   LanesView view() const noexcept { return {buffer_.data(), lanes_}; }
+  operator LanesSpan() noexcept { return span(); }
+  operator LanesView() const noexcept { return view(); }
+  operator std::span<const float>() const noexcept { return view(); }
   float& operator[](std::size_t i) noexcept { return buffer_.data()[i]; }
   float operator[](std::size_t i) const noexcept { return buffer_.data()[i]; }
   std::size_t lanes() const noexcept { return lanes_; }
@@ -131,6 +136,8 @@ class ColorLanes {
   static Result<ColorLanes> create(std::size_t lanes);
   ColorSpan span() noexcept;
   ColorView view() const noexcept;
+  operator ColorSpan() noexcept { return span(); }
+  operator ColorView() const noexcept { return view(); }
   float& at(std::size_t lane, std::size_t component) noexcept {
     return buffer_.data()[component * stride_ + lane];
   }

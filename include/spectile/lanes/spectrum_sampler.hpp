@@ -7,6 +7,10 @@
 
 namespace spectile {
 
+namespace kernels {
+struct KernelTable;
+}
+
 /// A spectrum made ready to be looked up in batches.
 ///
 /// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4
@@ -18,17 +22,23 @@ class SpectrumSampler {
   /// Errors: kOutOfMemory; kBadArgument for samples, slopes and ranges beyond that of float.
   static Result<SpectrumSampler> create(const Spectrum& spectrum);
 
-  /// Shapes: values [k][lanes], as the wavelengths, in other memory. Errors: kSizeMismatch.
-  Result<void> sample(WavelengthView lambda_nm, WavelengthSpan values, const Execution& execution = {}) const;
+  /// Values at wavelengths: a batch of them, such as SampledWavelengths::lambda_nm, gives a batch on the same
+  /// axis, in other memory. Units: nm. Errors: kBandsMismatch, kSizeMismatch; kBadArgument for samples not
+  /// aligned.
+  Result<void> sample(SampledSpectraView lambda_nm, SampledSpectraSpan values,
+                      const Execution& execution = {}) const;
 
  private:
+  friend struct SpectrumSamplerAccess;
   SpectrumSampler() = default;
+  void sample_run(const kernels::KernelTable& kernels, const float* lambda_nm, float* values,
+                  std::size_t n) const;
   struct Tables;
   std::shared_ptr<const Tables> tables_;
 };
 
 /// The same for a spectrum that is looked up once.
-Result<void> sample(const Spectrum& spectrum, WavelengthView lambda_nm, WavelengthSpan values,
+Result<void> sample(const Spectrum& spectrum, SampledSpectraView lambda_nm, SampledSpectraSpan values,
                     const Execution& execution = {});
 
 }  // namespace spectile

@@ -6,55 +6,30 @@
 
 namespace spectile {
 
-/// Read-only view of K numbers a lane: wavelengths, densities or values. Shapes: row(k) [lanes rounded up to
-/// 64], 64-byte aligned, `stride` floats apart.
-struct WavelengthView {
-  const float* data = nullptr;
-  std::size_t lanes = 0;
-  std::size_t count = 0;
-  std::size_t stride = 0;
-  const float* row(std::size_t k) const noexcept { return data + k * stride; }
-};
-
-/// Writable view; shapes as in WavelengthView.
-struct WavelengthSpan {
-  float* data = nullptr;
-  std::size_t lanes = 0;
-  std::size_t count = 0;
-  std::size_t stride = 0;
-  float* row(std::size_t k) const noexcept { return data + k * stride; }
-  operator WavelengthView() const { return {data, lanes, count, stride}; }
-};
-
-/// Owner of K numbers a lane, zero at first.
-class WavelengthLanes {
- public:
-  static constexpr std::size_t kMaxWavelengths = 64;
-  /// Errors: kOutOfMemory; kBadArgument for no wavelengths or more than kMaxWavelengths.
-  static Result<WavelengthLanes> create(std::size_t lanes, std::size_t count);
-  std::size_t lanes() const noexcept { return lanes_; }
-  std::size_t count() const noexcept { return count_; }
-  WavelengthSpan span() noexcept { return {buffer_.data(), lanes_, count_, stride_}; }
-  WavelengthView view() const noexcept { return {buffer_.data(), lanes_, count_, stride_}; }
-  float& at(std::size_t lane, std::size_t k) noexcept { return buffer_.data()[k * stride_ + lane]; }
-  float at(std::size_t lane, std::size_t k) const noexcept { return buffer_.data()[k * stride_ + lane]; }
-
- private:
-  FloatBuffer buffer_;
-  std::size_t lanes_ = 0;
-  std::size_t count_ = 0;
-  std::size_t stride_ = 0;
+/// Read-only view of K wavelengths in each of n lanes, and of the densities that they were drawn with:
+/// batches on one axis. Units: nm, 1/nm.
+struct SampledWavelengthsView {
+  SampledSpectraView lambda_nm;
+  SampledSpectraView density;  ///< 0 for a wavelength that is terminated
+  /// As SampledSpectraView::range().
+  SampledWavelengthsView range(std::size_t first, std::size_t count) const {
+    return {lambda_nm.range(first, count), density.range(first, count)};
+  }
 };
 
 /// K wavelengths in each of n lanes, and the densities that they were drawn with.
 struct SampledWavelengths {
-  WavelengthLanes lambda_nm;
-  WavelengthLanes density;  ///< 1/nm; 0 for a wavelength that is terminated
+  SampledSpectra lambda_nm;
+  SampledSpectra density;  ///< 1/nm; 0 for a wavelength that is terminated
 
-  /// Errors: as WavelengthLanes::create.
+  /// All 0 at first. Errors: kOutOfMemory; as SpectralAxis::own_wavelengths().
   static Result<SampledWavelengths> create(std::size_t lanes, std::size_t count);
   std::size_t lanes() const noexcept { return lambda_nm.lanes(); }
-  std::size_t count() const noexcept { return lambda_nm.count(); }
+  std::size_t count() const noexcept { return axis().count(); }
+  /// Of batches of values at these wavelengths.
+  const SpectralAxis& axis() const noexcept { return lambda_nm.axis(); }
+  SampledWavelengthsView view() const { return {lambda_nm.view(), density.view()}; }
+  operator SampledWavelengthsView() const { return view(); }
 };
 
 /// The density that wavelengths are drawn from.
@@ -80,6 +55,6 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths);
 Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes);
 
 /// Lanes that have only their first wavelength left; none where K is 1.
-LaneMask secondary_terminated(const SampledWavelengths& wavelengths);
+LaneMask secondary_terminated(const SampledWavelengthsView& wavelengths);
 
 }  // namespace spectile

@@ -79,6 +79,7 @@ struct UpsamplerOptions {
 
 struct SigmoidModel;
 struct GridModel;
+struct WavelengthTables;
 
 /// A method prepared for given bands, ready for the kernels.
 ///
@@ -132,13 +133,14 @@ class Upsampler {
   FloatBuffer table_;
   std::shared_ptr<const SigmoidModel> sigmoid_;
   std::shared_ptr<const GridModel> grid_;
+  std::shared_ptr<const WavelengthTables> at_wavelengths_;
 };
 
 /// Treatment of colours that a method cannot make, once they are in its RGB.
 enum class GamutPolicy {
-  kClip,  ///< moved to the nearest colour that it can make of the same luminance and dominant wavelength
-  kKeep,  ///< kept, as are the samples below 0 that they make: basis spectra and nodes are extrapolated
-          ///< linearly, sigmoids take the coefficients of the colour that they would be clipped to
+  kClip,   ///< moved to the nearest colour that it can make of the same luminance and dominant wavelength
+  kKeep,   ///< kept, as are the samples below 0 that they make: basis spectra and nodes are extrapolated
+           ///< linearly, sigmoids take the coefficients of the colour that they would be clipped to
   kError,  ///< an error that names the first of them and their number
 };
 
@@ -189,6 +191,20 @@ Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, Samp
 /// see coefficients(). Errors: kBandsMismatch when the upsampler was built for other bands; kSizeMismatch.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraSpan spectra,
                            StoreHint hint = StoreHint::kAuto, const Execution& execution = {});
+
+/// Linear RGB to samples at each lane's own wavelengths, by way of no other batch: the lane's rgb_spectrum()
+/// there. For colours that the method cannot make see CoefficientLanes::unsolved.
+/// Shapes: rgb three times [lanes]; lambda_nm, such as SampledWavelengths::lambda_nm, and samples on one
+/// axis. Numbers: NaN wavelengths give NaN. Mixtures and grids as upsample_srgb(), then linear between the
+/// centres of two bands: 4 u of the larger one more, for wavelengths rounded to float; infinite samples may
+/// become NaN. Sigmoids: see coefficients() and SpectrumSampler. Units: nm. Errors: kBandsMismatch for
+/// wavelengths on bands and for other axes, kSizeMismatch, kBadArgument for samples not aligned.
+Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraView lambda_nm,
+                           SampledSpectraSpan samples, const Execution& execution = {});
+
+/// Coefficients to samples at each lane's own wavelengths: the bits of upsample_srgb(). Errors likewise.
+Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraView lambda_nm,
+                    SampledSpectraSpan samples, const Execution& execution = {});
 
 /// CIE XYZ to spectra, through linear sRGB with its D65 white (see xyz_to_srgb).
 /// Shapes, numbers, errors as for upsample_srgb.

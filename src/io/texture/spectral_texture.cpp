@@ -9,9 +9,9 @@
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
+#include "src/io/channels/plan_attribute.hpp"
 #include "src/io/convert/frame/output.hpp"
 #include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/channels/plan_attribute.hpp"
 #include "src/io/convert/sources/spectral_source.hpp"
 #include "src/io/texture/evaluators.hpp"
 #include "src/lanes/shape.hpp"
@@ -58,7 +58,7 @@ Result<Bands> bands_at(std::span<const double> wavelengths_nm) {
 /// A line of any length into the batch from `lane` on, cut where the batch's blocks end.
 void evaluate_line(const kernels::KernelTable& kernels, const io::Evaluator& evaluator, const io::Piece& line,
                    std::size_t lane, const SampledSpectraSpan& spectra) {
-  const std::size_t bands = spectra.bands.count();
+  const std::size_t bands = spectra.axis.count();
   void* out[Bands::kMaxBands];
   for (std::size_t at = 0; at < line.n;) {
     const std::size_t within = (lane + at) % kLanesPerBlock;
@@ -167,9 +167,13 @@ Result<void> SpectralTexture::Image::evaluate(const PixelWindow& region, Sampled
   SPECTILE_TRY(shape::same_lanes(w * static_cast<std::size_t>(region.height()), spectra.lanes));
   SPECTILE_TRY(shape::aligned(spectra.data));
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  SPECTILE_ASSIGN(const auto evaluator, evaluator_for(spectra.bands));
+  if (spectra.axis.bands() == nullptr) {
+    return make_error(ErrorCode::kBandsMismatch, "a region is evaluated on bands, the batch has {}",
+                      spectra.axis.description());
+  }
+  SPECTILE_ASSIGN(const auto evaluator, evaluator_for(*spectra.axis.bands()));
   const std::vector<io::PlaneSpec>& planes = evaluator->planes();
-  const std::size_t bands = spectra.bands.count();
+  const std::size_t bands = spectra.axis.count();
   const int step = io::strip_lines(file().header(part_), planes, 1);
   for (int done = 0; done < region.height(); done += step) {
     const int first = region.y0 + done;

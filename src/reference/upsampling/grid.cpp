@@ -1,4 +1,5 @@
 // Scalar twins of the kernels that interpolate in a grid of spectra.
+#include "src/reference/centres.hpp"
 #include "src/reference/rows.hpp"
 #include "src/reference/twins.hpp"
 
@@ -98,6 +99,21 @@ void grid_fold(float* const dst[3], const GridSpectra& spectra, std::size_t n) n
   for (std::size_t i = 0; i < n; ++i) {
     const GridPlace place = grid_place(spectra, i, kernels::kGridColor);
     for (std::size_t k = 0; k < 3; ++k) dst[k][i] = mixed(place, spectra.table.nodes, k);
+  }
+}
+
+void grid_at(float* dst, const GridSpectra& spectra, const kernels::CentreTable& centres,
+             const float* lambda_nm, std::size_t count, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    const GridPlace place = grid_place(spectra, i, spectra.table.stride);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = own_sample(i, k, count);
+      dst[at] = lambda_nm[at];
+      if (std::isnan(lambda_nm[at])) continue;
+      const CentrePlace where = place_between(centres, lambda_nm[at]);
+      dst[at] = between(grid_sample(place, spectra.table, where.interval),
+                        grid_sample(place, spectra.table, where.interval + 1), where.part);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // Scalar twins of the Smits kernels.
 #include "src/reference/upsampling/smits.hpp"
 
+#include "src/reference/centres.hpp"
 #include "src/reference/rows.hpp"
 #include "src/reference/twins.hpp"
 
@@ -58,6 +59,29 @@ void smits_fold(float* const dst[3], const float* const rgb[3], const float* tab
   for (std::size_t i = 0; i < n; ++i) {
     const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
     for (std::size_t k = 0; k < 3; ++k) dst[k][i] = mixed(m, table + k * kSmitsRow);
+  }
+}
+
+void mixtures_at(float* dst, const float* const rgb[3], const kernels::MixtureTable& table,
+                 const kernels::CentreTable& centres, const float* lambda_nm, std::size_t count,
+                 std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    const SmitsMixture m = smits_mixture(rgb[0][i], rgb[1][i], rgb[2][i]);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = own_sample(i, k, count);
+      dst[at] = lambda_nm[at];
+      if (std::isnan(lambda_nm[at])) continue;
+      const CentrePlace where = place_between(centres, lambda_nm[at]);
+      float ends[2];
+      for (std::size_t end = 0; end < 2; ++end) {
+        float row[kSmitsRow];
+        for (std::size_t b = 0; b < kSmitsRow; ++b)
+          row[b] = table.ends[2 * (where.interval * kSmitsRow + b) + end];
+        const float sample = mixed(m, row);
+        ends[end] = sample < table.lowest ? table.lowest : sample;
+      }
+      dst[at] = between(ends[0], ends[1], where.part);
+    }
   }
 }
 

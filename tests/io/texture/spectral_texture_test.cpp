@@ -80,7 +80,7 @@ TEST_P(Texture, BothFormsAgreeAtTheCentresToTheBit) {
   const SampledSpectra full = evaluate(open("full.exr"), kWhole, centres_of(bands_));
   const SampledSpectra compact = evaluate(open("compact.exr"), kWhole, centres_of(bands_));
   const SampledSpectra halves = evaluate(open("half.exr"), kWhole, centres_of(bands_));
-  EXPECT_EQ(full.bands(), bands_);
+  EXPECT_EQ(full.axis(), bands_);
   EXPECT_TRUE(test::same_lanes(compact, full));
   for (std::size_t b = 0; b < bands_.count(); ++b) {
     const test::Plane& plane = stored.planes.at(channel_of(GetParam().quantity, bands_[b].centre_nm));
@@ -171,7 +171,7 @@ TEST_P(Texture, RegionsAreCutFromTheWhole) {
           const auto y = static_cast<std::size_t>(r.y0) + lane / static_cast<std::size_t>(r.width());
           return whole.at(y * kWidth + x, band);
         };
-        EXPECT_TRUE(test::same_lanes(part, test::batch_of(part.bands(), part.lanes(), source)))
+        EXPECT_TRUE(test::same_lanes(part, test::batch_of(part.axis(), part.lanes(), source)))
             << fmt::format("{} {} x {} at {},{}", name, r.width(), r.height(), r.x0, r.y0);
       }
     }
@@ -187,7 +187,7 @@ TEST_P(Texture, OneWavelengthIsThatOfMany) {
     const SampledSpectra all = evaluate(texture, line, many);
     for (const std::size_t w : {0U, 115U, 130U, 300U, 301U, 899U}) {
       const SampledSpectra one = evaluate(texture, line, {many[w]});
-      EXPECT_EQ(one.bands()[0].centre_nm, many[w]);
+      EXPECT_EQ((*one.axis().bands())[0].centre_nm, many[w]);
       for (std::size_t i = 0; i < one.lanes(); ++i)
         ASSERT_TRUE(test::same_bits(one.at(i, 0), all.at(i, w))) << w;
     }

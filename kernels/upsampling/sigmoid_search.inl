@@ -1,7 +1,7 @@
 // The search for the sigmoid that has a colour: an expansion around the nearest node, then Newton's method.
 #pragma once
 
-#include "kernels/sigmoid_newton.inl"
+#include "kernels/upsampling/sigmoid_newton.inl"
 
 namespace spectile::kernels {
 namespace {

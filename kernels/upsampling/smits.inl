@@ -5,31 +5,20 @@
 #include "kernels/simd/convert.hpp"
 #include "kernels/simd/tables.hpp"
 #include "kernels/simd/vector.hpp"
+#include "kernels/upsampling/smits_weights.inl"
 
 namespace spectile::kernels {
 namespace {
 
-/// The mixtures of one vector of pixels: three weights, and the secondary and primary that two of them go to.
+/// A mixture ready for permutes of a row.
 struct Mixture {
   F32 white, second, first;
   Index second_index, first_index;
 };
 
 inline Mixture mixture(F32 r, F32 g, F32 b) noexcept {
-  // Ordered comparisons with the operands that the reference uses, so that ties and NaN choose alike.
-  const F32 low_rg = xsimd::select(g < r, g, r);
-  const F32 high_rg = xsimd::select(g < r, r, g);
-  const F32 least = xsimd::select(b < low_rg, b, low_rg);
-  const F32 most = xsimd::select(high_rg < b, b, high_rg);
-  const F32 capped = xsimd::select(high_rg < b, high_rg, b);
-  const F32 middle = xsimd::select(capped < low_rg, low_rg, capped);
-
-  const F32 rg_second = xsimd::select(g < r, F32(2.0F), F32(1.0F));
-  const F32 rg_first = xsimd::select(g < r, F32(4.0F), F32(5.0F));
-  const F32 second = xsimd::select(b < low_rg, F32(3.0F), rg_second);
-  const F32 first = xsimd::select(high_rg < b, F32(6.0F), rg_first);
-  return {least, middle - least, most - middle, prepare(xsimd::to_int(second)),
-          prepare(xsimd::to_int(first))};
+  const MixtureWeights m = mixture_weights(r, g, b);
+  return {m.white, m.second, m.first, prepare(m.second_basis), prepare(m.first_basis)};
 }
 
 inline F32 mixed(const Mixture& m, const Row& row, F32 white, F32 lowest) noexcept {

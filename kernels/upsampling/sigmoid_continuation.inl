@@ -2,7 +2,7 @@
 // cover, and the coefficients there.
 #pragma once
 
-#include "kernels/sigmoid_newton.inl"
+#include "kernels/upsampling/sigmoid_newton.inl"
 
 namespace spectile::kernels {
 namespace {

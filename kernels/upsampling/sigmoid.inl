@@ -1,9 +1,9 @@
 // Sigmoids over bands: their samples in blocks and in rows, and their projection.
 #pragma once
 
-#include "kernels/sigmoid_point.inl"
 #include "kernels/simd/runs.hpp"
-#include "kernels/smits.inl"
+#include "kernels/upsampling/sigmoid_point.inl"
+#include "kernels/upsampling/smits.inl"
 
 namespace spectile::kernels {
 namespace {

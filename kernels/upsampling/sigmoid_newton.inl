@@ -2,9 +2,9 @@
 // step, and the start from the nearest node.
 #pragma once
 
-#include "kernels/sigmoid_point.inl"
 #include "kernels/simd/runs.hpp"
 #include "kernels/simd/tables.hpp"
+#include "kernels/upsampling/sigmoid_point.inl"
 
 namespace spectile::kernels {
 namespace {
