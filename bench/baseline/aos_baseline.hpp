@@ -15,10 +15,11 @@ struct AosTables {
   float basis[7][kMaxAosSamples];
   float light[kMaxAosSamples];
   float matching[3][kMaxAosSamples];
-  float lambda[kMaxAosSamples];  ///< argument of a sigmoid's quadratic at each sample
-  float coefficients[3];         ///< of the sigmoid that is sampled at wavelengths
-  float exponent;                ///< of pow
-  float planck_nm;               ///< second radiation constant over the temperature
+  float first_centre_nm, per_nm;  ///< of the samples' bands, which are even
+  float lambda[kMaxAosSamples];   ///< argument of a sigmoid's quadratic at each sample
+  float coefficients[3];          ///< of the sigmoid that is sampled at wavelengths
+  float exponent;                 ///< of pow
+  float planck_nm;                ///< second radiation constant over the temperature
   float first_nm;
   const float* even;  ///< values at every nanometre from first_nm on
   int even_count;
@@ -84,6 +85,9 @@ struct AosBaseline {
   AosFunction multiply, exp, transmittance, pow;
   // Wavelength by wavelength.
   AosFunction interpolate_even, interpolate_knots, planck, sigmoid_at;
+  /// Three numbers and 4 wavelengths to 4 samples: of a mixture of the basis, by a branch and by an index,
+  /// and of a sigmoid.
+  AosFunction mixture_at, mixture_at_fused, sigmoids_at;
   /// 4 wavelengths and their densities, drawn as the eye sees from one number.
   AosFunction draw_visible;
   /// The nearest nanometre of each curve by lround; by a conversion (tuned by hand); with wavelengths drawn

@@ -250,6 +250,8 @@ void sigmoid_at(const AosTables& t, const float* lambda_nm, float* out, std::siz
   }
 }
 
+#include "bench/baseline/aos_own_wavelengths.inl"
+
 /// Four wavelengths as the eye sees, and their densities. Constants: Pharr, Jakob, Humphreys, Physically
 /// Based Rendering, 4th edition, section 4.5.4.
 void draw(float u, float* lambda_nm, float* density) {
@@ -286,6 +288,9 @@ constexpr AosBaseline SPECTILE_AOS_BASELINE = {SPECTILE_LEVEL_TEXT,
                                                interpolate_knots,
                                                planck,
                                                sigmoid_at,
+                                               mixture_at,
+                                               mixture_at_fused,
+                                               sigmoids_at,
                                                draw_visible,
                                                film_add<Rounding::kLround>,
                                                film_add<Rounding::kConversion>,

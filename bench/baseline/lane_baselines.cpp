@@ -34,11 +34,15 @@ Result<void> fill(AosTables& to, const Bands& bands, Method method, const char* 
   return {};
 }
 
-Result<std::shared_ptr<const Tables>> make_tables(const Bands& bands, bool relights) {
+Result<std::shared_ptr<const Tables>> make_tables(const Bands& bands, const Operation& operation) {
   auto out = std::make_shared<Tables>();
   AosTables& t = out->aos;
+  const bool relights = operation.group == "relighting";
+  const bool exact = operation.name.ends_with("smits-exact");
   SPECTILE_TRY(
-      fill(t, bands, relights ? Method::kSmitsExact : Method::kSmits, relights ? "A" : "D65", relights));
+      fill(t, bands, exact ? Method::kSmitsExact : Method::kSmits, relights ? "A" : "D65", relights));
+  t.first_centre_nm = static_cast<float>(bands[0].centre_nm);
+  t.per_nm = static_cast<float>(1 / (bands[1].centre_nm - bands[0].centre_nm));
   SPECTILE_ASSIGN(const auto y, named_spectrum("cie1931-y"));
   for (int nm = 360; nm <= 830; ++nm) out->even.push_back(static_cast<float>(y(nm)));
   out->knots = irregular_knots();
@@ -77,6 +81,8 @@ Functions functions_for(std::string_view operation) {
                            {"look up between irregular knots", b.interpolate_knots},
                            {"black body", b.planck},
                            {"sigmoid at wavelengths", b.sigmoid_at},
+                           {"colour at 4 wavelengths, smits-exact", b.mixture_at, b.mixture_at_fused},
+                           {"coefficients at 4 wavelengths, sigmoid", b.sigmoids_at},
                            {"draw 4 wavelengths, visible", b.draw_visible}};
   for (const Functions& f : all) {
     if (operation == f.operation) return f;
@@ -101,7 +107,7 @@ Result<LaneBaseline> LaneBaseline::create(const Operation& operation, const Band
   auto state = std::make_shared<State>();
   state->operation = &operation;
   state->lanes = memory.lanes();
-  SPECTILE_ASSIGN(state->tables, make_tables(bands, operation.group == "relighting"));
+  SPECTILE_ASSIGN(state->tables, make_tables(bands, operation));
   const std::size_t values = operation.in.values();
   const bool operands = operation.group == "arithmetic";
   state->in.resize(values * state->lanes);

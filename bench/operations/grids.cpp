@@ -11,6 +11,7 @@
 #include "bench/operations/operation.hpp"
 #include "src/upsampling/grid/nodes.hpp"
 #include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/own_wavelengths/wavelength_tables.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -30,38 +31,67 @@ std::array<double, 3> rgb3(const double* rgb) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-/// `rows` samples of each node, limited from below: `bound` u of the sum of the weights' magnitudes times the
+/// `rows` samples of each node, limited from below: scaled by the sum of the weights' magnitudes times the
 /// largest sample of the grid.
+struct GridOracle {
+  GridOracle(std::shared_ptr<const void> of, const GridTable& grid, std::size_t count, double least)
+      : owner(std::move(of)), table(grid), rows(count), lowest(least) {
+    for (std::size_t i = 0; i < kNodes * table.stride; ++i)
+      largest = std::max(largest, std::abs(static_cast<double>(table.nodes[i])));
+  }
+  /// Three parts, each times up to 8; eight products.
+  double roundings() const { return (3 * 8 + 8) * std::max(1.0, largest); }
+  void operator()(const double* rgb, double* reference, double* scale) const {
+    if (!finite3(rgb)) {
+      // NaN stays NaN; infinities go through by the kernel's own order, which the
+      // reference's bits tell.
+      const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
+      std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+      std::fill_n(scale, rows, std::numeric_limits<double>::max());
+      return;
+    }
+    const NodeMixture found = node_mixture(rgb3(rgb), table.homogeneous);
+    double sum = 0;
+    for (const double w : found.weight) sum += std::abs(w);
+    for (std::size_t row = 0; row < rows; ++row) {
+      double v = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        v += found.weight[i] * static_cast<double>(table.nodes[found.node[i] * table.stride + row]);
+      reference[row] = std::max(v, lowest);
+      scale[row] = sum * largest;
+    }
+  }
+  std::shared_ptr<const void> owner;  ///< of the table
+  GridTable table;
+  std::size_t rows;
+  double lowest;
+  double largest = 0;
+};
+
 std::function<double(const double*, const double*, double)> grid_error(
     const std::shared_ptr<const void>& owner, const GridTable& table, std::size_t rows, double lowest,
     double bound) {
-  double largest = 0;
-  for (std::size_t i = 0; i < kNodes * table.stride; ++i)
-    largest = std::max(largest, std::abs(static_cast<double>(table.nodes[i])));
-  // Three parts, each times up to 8; eight products.
-  const double roundings = (3 * 8 + 8) * std::max(1.0, largest);
-  return error_against(
-      rows, roundings, false, bound, [=](const double* rgb, double* reference, double* scale) {
-        static_cast<void>(owner);
-        if (!finite3(rgb)) {
-          // NaN stays NaN; infinities go through by the kernel's own order, which the
-          // reference's bits tell.
-          const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-          std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-          std::fill_n(scale, rows, std::numeric_limits<double>::max());
-          return;
-        }
-        const NodeMixture found = node_mixture(rgb3(rgb), table.homogeneous);
-        double sum = 0;
-        for (const double w : found.weight) sum += std::abs(w);
-        for (std::size_t row = 0; row < rows; ++row) {
-          double v = 0;
-          for (std::size_t i = 0; i < 4; ++i)
-            v += found.weight[i] * static_cast<double>(table.nodes[found.node[i] * table.stride + row]);
-          reference[row] = std::max(v, lowest);
-          scale[row] = sum * largest;
-        }
+  const GridOracle oracle(owner, table, rows, lowest);
+  return error_against(rows, oracle.roundings(), false, bound, oracle);
+}
+
+/// The colour at a few wavelengths of its own.
+void add_at_wavelengths(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler) {
+  Operation& op = add_own_wavelengths(
+      to, "colour at 4 wavelengths, tetrahedral", "colour",
+      [=](const KernelTable& k, const float* const rgb[3], const float* lambda_nm, float* samples) {
+        k.grid_at(samples, rows::grid_spectra(*upsampler, rgb, nullptr),
+                  UpsamplerAccess::at_wavelengths(*upsampler).centres, lambda_nm, kWavelengths, 1);
       });
+  // A wavelength: held (4), its place (7), two samples (8 each) of four nodes (1 each), between them (3),
+  // NaN (2).
+  op.operations = kPlaces + kWavelengths * (4 + 7 + 2 * 8 + 4 + 3 + 2);
+  op.divisions = 3;
+  op.bottleneck = "gathers: eight loads a wavelength from the nodes";
+  op.bound = kBound + 3;
+  const GridOracle oracle(upsampler, rows::grid_spectra(*upsampler, nullptr, nullptr).table,
+                          upsampler->bands().count(), 0);
+  op.error = error_between_bands(upsampler->bands(), oracle.roundings() + 3, op.bound, oracle);
 }
 
 void add_spectra(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler) {
@@ -138,6 +168,7 @@ void add_fold(std::vector<Operation>& to, const std::shared_ptr<const Relighter>
 void add_grids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
                const std::shared_ptr<const Relighter>& relighter) {
   add_spectra(to, upsampler);
+  add_at_wavelengths(to, upsampler);
   add_fold(to, relighter);
 }
 

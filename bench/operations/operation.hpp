@@ -155,6 +155,19 @@ struct PathRows {
 /// Fills one with typical values.
 void fill_path(Random& random, float* values);
 
+/// Three numbers a lane and as many wavelengths of its own, [block][3 + kWavelengths][64], to a sample at
+/// each. `kernel`: of one block, with its three rows, its wavelengths and where its samples go.
+using OwnWavelengthsKernel = std::function<void(const KernelTable&, const float* const rows[3],
+                                                const float* lambda_nm, float* samples)>;
+Operation& add_own_wavelengths(std::vector<Operation>& to, std::string name, const char* item,
+                               OwnWavelengthsKernel kernel);
+/// Error of such an operation whose samples are linear between the centres of even bands: `bound` u of what
+/// the oracle gives for the bands, and the rounding of the place between them.
+std::function<double(const double*, const double*, double)> error_between_bands(const Bands& bands,
+                                                                                double roundings,
+                                                                                double bound,
+                                                                                Oracle on_bands);
+
 /// Rows of a line of an image in the target: a plane a band.
 void* const* line_rows(const Arrays& arrays, std::size_t bands);
 

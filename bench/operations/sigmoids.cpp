@@ -271,6 +271,18 @@ void add_evaluations(std::vector<Operation>& to, const Shared& upsampler) {
   };
 }
 
+/// A sample at a wavelength, held within the range of kSigmoidAtWavelengths.
+double error_at_wavelength(const double* c, double lambda, double sample) {
+  if (std::isnan(lambda)) return std::isnan(sample) ? 0.0 : kBeyond;
+  const double held = std::clamp(lambda, static_cast<double>(kSigmoidAtWavelengths.lowest_nm),
+                                 static_cast<double>(kSigmoidAtWavelengths.highest_nm));
+  const double l = sigmoid_lambda(held);
+  const Place at = {l * l, l};
+  // Lambda is rounded twice, which the polynomial's slope passes on.
+  const double slope = std::abs(2 * c[0] * l + c[1]);
+  return std::abs(sample - sigmoid(c, at)) / (allowed_at(c, at) + 0x1p-24 * slope * std::abs(l));
+}
+
 /// One spectrum at many wavelengths.
 void add_at_wavelengths(std::vector<Operation>& to) {
   Operation& op = add_operation(to, "wavelengths", "sigmoid at wavelengths", "wavelength", {});
@@ -285,17 +297,36 @@ void add_at_wavelengths(std::vector<Operation>& to) {
     k.sigmoid_at(a.out(), a.in(), kSigmoidAtWavelengths, a.n());
   };
   op.error = [](const double* v, const double* out, double /*tiny*/) {
-    if (std::isnan(v[0])) return std::isnan(out[0]) ? 0.0 : kBeyond;
-    const double held = std::clamp(v[0], static_cast<double>(kSigmoidAtWavelengths.lowest_nm),
-                                   static_cast<double>(kSigmoidAtWavelengths.highest_nm));
-    const double l = sigmoid_lambda(held);
-    const Place at = {l * l, l};
     double c[3];
     for (std::size_t k = 0; k < 3; ++k) c[k] = static_cast<double>(kSigmoidAtWavelengths.c[k]);
-    // Lambda is rounded twice, which the polynomial's slope passes on.
-    const double slope = std::abs(2 * c[0] * l + c[1]);
-    const double allowed = allowed_at(c, at) + 0x1p-24 * slope * std::abs(l);
-    return std::abs(out[0] - sigmoid(c, at)) / allowed;
+    return error_at_wavelength(c, v[0], out[0]);
+  };
+}
+
+/// The same of lanes' own coefficients at their own wavelengths.
+void add_at_own_wavelengths(std::vector<Operation>& to) {
+  Operation& op = add_own_wavelengths(
+      to, "coefficients at 4 wavelengths, sigmoid", "colour",
+      [](const KernelTable& k, const float* const c[3], const float* lambda_nm, float* samples) {
+        const auto& s = kSigmoidAtWavelengths;
+        k.sigmoids_at(samples, {c, nullptr, s.lowest_nm, s.highest_nm, s.form, s.p, s.q}, lambda_nm,
+                      kWavelengths, 1);
+      });
+  op.operations = kWavelengths * (kSigmoidBand + 4 + 1 + 2);
+  op.divisions = kWavelengths;
+  op.unit = "stated bound";
+  op.bound = 1;
+  op.bottleneck = "chains of sixteen dependent operations after a division";
+  op.fill = [](Random& random, float* v) {
+    for (std::size_t k = 0; k < 3; ++k) v[k] = uniform(random, -3.0F, 3.0F);
+    for (std::size_t k = 0; k < kWavelengths; ++k) v[3 + k] = uniform(random, 360.0F, 830.0F);
+  };
+  op.error = [](const double* v, const double* out, double /*tiny*/) {
+    if (!has_bound(v)) return kOutOfDomain;
+    double worst = 0;
+    for (std::size_t k = 0; k < kWavelengths; ++k)
+      worst = std::max(worst, error_at_wavelength(v, v[3 + k], out[k]));
+    return worst;
   };
 }
 
@@ -305,7 +336,9 @@ void add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
   add_search(to, upsampler);
   add_continuation(to, upsampler);
   add_evaluations(to, upsampler);
-  if (upsampler->method() == Method::kSigmoid) add_at_wavelengths(to);
+  if (upsampler->method() != Method::kSigmoid) return;
+  add_at_wavelengths(to);
+  add_at_own_wavelengths(to);
 }
 
 }  // namespace spectile::measure

@@ -13,6 +13,7 @@
 #include "bench/operations/operation.hpp"
 #include "src/base/errors.hpp"
 #include "src/upsampling/method_rows.hpp"
+#include "src/upsampling/own_wavelengths/wavelength_tables.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -43,13 +44,14 @@ Mixture find_mixture(const double* rgb) {
 
 /// Rows of a float table [rows][kSmitsRow] mixed, limited from below: 6 u of the sum of the weights'
 /// magnitudes times the largest basis value.
-std::function<double(const double*, const double*, double)> mixture_error(
-    const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
-  double largest = 0;
-  for (const double v : *basis) largest = std::max(largest, std::abs(v));
-  // Two differences and three products, each times a basis.
-  const double roundings = 5 * std::max(1.0, largest);
-  return error_against(rows, roundings, false, 6, [=](const double* rgb, double* reference, double* scale) {
+struct MixtureOracle {
+  MixtureOracle(std::shared_ptr<const std::vector<double>> of, std::size_t count, double least)
+      : basis(std::move(of)), rows(count), lowest(least) {
+    for (const double v : *basis) largest = std::max(largest, std::abs(v));
+  }
+  /// Two differences and three products, each times a basis.
+  double roundings() const { return 5 * std::max(1.0, largest); }
+  void operator()(const double* rgb, double* reference, double* scale) const {
     // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
     if (!finite3(rgb)) {
       const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
@@ -66,13 +68,41 @@ std::function<double(const double*, const double*, double)> mixture_error(
       reference[row] = std::max(v, lowest);
       scale[row] = sum * largest;
     }
-  });
+  }
+  std::shared_ptr<const std::vector<double>> basis;
+  std::size_t rows;
+  double lowest;
+  double largest = 0;
+};
+
+std::function<double(const double*, const double*, double)> mixture_error(
+    const std::shared_ptr<const std::vector<double>>& basis, std::size_t rows, double lowest) {
+  const MixtureOracle oracle(basis, rows, lowest);
+  return error_against(rows, oracle.roundings(), false, 6, oracle);
 }
 
 std::shared_ptr<const std::vector<double>> flat_basis(const Upsampler& upsampler) {
   auto out = std::make_shared<std::vector<double>>();
   for (const auto& row : upsampler.basis()) out->insert(out->end(), row.begin(), row.end());
   return out;
+}
+
+/// The colour at a few wavelengths of its own.
+void add_mixture_at_wavelengths(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
+                                const std::string& name) {
+  Operation& op = add_own_wavelengths(
+      to, "colour at 4 wavelengths, " + name, "colour",
+      [=](const KernelTable& k, const float* const rgb[3], const float* lambda_nm, float* samples) {
+        const WavelengthTables& tables = UpsamplerAccess::at_wavelengths(*upsampler);
+        k.mixtures_at(samples, rgb, {tables.ends.data(), upsampler->lowest()}, tables.centres, lambda_nm,
+                      kWavelengths, 1);
+      });
+  // A wavelength: held (4), its place (7), two samples (6 each), between them (3), NaN (2).
+  op.operations = kMixture + kWavelengths * (4 + 7 + 2 * 6 + 3 + 2);
+  op.bottleneck = "gathers: six loads a wavelength from the basis spectra";
+  op.bound = 9;
+  const MixtureOracle oracle(flat_basis(*upsampler), upsampler->bands().count(), 0);
+  op.error = error_between_bands(upsampler->bands(), oracle.roundings() + 3, op.bound, oracle);
 }
 
 void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
@@ -215,6 +245,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
   }
   if (const auto exact = create_upsampler(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
+    add_mixture_at_wavelengths(to, exact, "smits-exact");
     SPECTILE_ASSIGN(const auto relighter, relighter_of(exact));
     add_relight(to, relighter);
   }

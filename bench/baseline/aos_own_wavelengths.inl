@@ -1,0 +1,87 @@
+// Part of aos_baseline_levels.cpp: colours at four wavelengths of their own, one after the other.
+
+using FourSamples = SampledSpectrum<4>;
+
+/// Four wavelengths' places between the centres of the bands.
+struct Places {
+  int band[4];
+  float part[4];
+};
+
+Places places(const AosTables& t, const float* lambda_nm) {
+  Places out;
+  for (int k = 0; k < 4; ++k) {
+    const float at = (lambda_nm[k] - t.first_centre_nm) * t.per_nm;
+    const float held = at < 0 ? 0 : at > kSamples - 1 ? kSamples - 1 : at;
+    out.band[k] = held < kSamples - 2 ? static_cast<int>(held) : kSamples - 2;
+    out.part[k] = held - static_cast<float>(out.band[k]);
+  }
+  return out;
+}
+
+FourSamples sampled(const float* values, const Places& at) {
+  FourSamples out;
+  for (int k = 0; k < 4; ++k) {
+    const float* const v = values + at.band[k];
+    out.c[k] = v[0] + at.part[k] * (v[1] - v[0]);
+  }
+  return out;
+}
+
+/// The basis spectra that the colour is of, sampled and added up, by a branch on the order of its components.
+void mixture_at(const AosTables& t, const float* in, float* out, std::size_t n) {
+  enum { kWhite, kCyan, kMagenta, kYellow, kRed, kGreen, kBlue };
+  for (std::size_t i = 0; i < n; ++i, in += 7, out += 4) {
+    const Places at = places(t, in + 3);
+    const float r = in[0];
+    const float g = in[1];
+    const float b = in[2];
+    FourSamples sum{};
+    const auto add = [&](float weight, int basis) { sum += sampled(t.basis[basis], at) * weight; };
+    if (r <= g && r <= b) {
+      add(r, kWhite);
+      add((g <= b ? g : b) - r, kCyan);
+      add(g <= b ? b - g : g - b, g <= b ? kBlue : kGreen);
+    } else if (g <= r && g <= b) {
+      add(g, kWhite);
+      add((r <= b ? r : b) - g, kMagenta);
+      add(r <= b ? b - r : r - b, r <= b ? kBlue : kRed);
+    } else {
+      add(b, kWhite);
+      add((r <= g ? r : g) - b, kYellow);
+      add(r <= g ? g - r : r - g, r <= g ? kGreen : kRed);
+    }
+    *reinterpret_cast<FourSamples*>(out) = sum.clamped();
+  }
+}
+
+/// The same by an index, in one loop.
+void mixture_at_fused(const AosTables& t, const float* in, float* __restrict out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 7, out += 4) {
+    int least = 0;
+    int most = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (in[k] < in[least]) least = k;
+      if (in[k] > in[most]) most = k;
+    }
+    const float low = in[least];
+    const float middle = least == most ? low : in[3 - least - most];
+    const Places at = places(t, in + 3);
+    const FourSamples white = sampled(t.basis[0], at);
+    const FourSamples second = sampled(t.basis[1 + least], at);
+    const FourSamples first = sampled(t.basis[4 + most], at);
+    for (int k = 0; k < 4; ++k) {
+      const float v = low * white.c[k] + (middle - low) * second.c[k] + (in[most] - middle) * first.c[k];
+      out[k] = v < 0 ? 0 : v;
+    }
+  }
+}
+
+void sigmoids_at(const AosTables& /*tables*/, const float* in, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 7, out += 4) {
+    for (int k = 0; k < 4; ++k) {
+      const float nm = in[3 + k] < 400 ? 400 : in[3 + k] > 700 ? 700 : in[3 + k];
+      out[k] = sigmoid(in, (nm - 550) / 150);
+    }
+  }
+}
