@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <spectile/spectra/named_spectra.hpp>
 #include <spectile/upsampling/relight.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -213,16 +212,8 @@ void add_gamut(std::vector<Operation>& to, const Upsampler& upsampler) {
 Result<std::shared_ptr<const Relighter>> relighter_of(const std::shared_ptr<const Upsampler>& upsampler) {
   SPECTILE_ASSIGN(auto light, illuminant("A"));
   SPECTILE_ASSIGN(auto under, Projector::reflective(upsampler->bands(), light));
-  // The relighter refers to the others.
-  struct Kept {
-    std::shared_ptr<const Upsampler> upsampler;
-    Projector projector;
-    std::optional<Relighter> relighter;
-  };
-  auto kept = std::make_shared<Kept>(Kept{upsampler, std::move(under), {}});
-  SPECTILE_ASSIGN(kept->relighter,
-                  Relighter::create(*kept->upsampler, kept->projector, kept->projector.xyz_to_srgb()));
-  return std::shared_ptr<const Relighter>(kept, &*kept->relighter);
+  SPECTILE_ASSIGN(auto out, Relighter::create(*upsampler, under, under.xyz_to_srgb()));
+  return std::make_shared<const Relighter>(std::move(out));
 }
 
 }  // namespace

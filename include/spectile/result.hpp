@@ -42,6 +42,10 @@ class [[nodiscard]] Result {
   Result(Error error) : error_(std::move(error)) {}
 
   explicit operator bool() const noexcept { return value_.has_value(); }
+  bool has_value() const noexcept { return value_.has_value(); }
+  /// The value, or another one in place of an error.
+  T value_or(T other) const& { return value_ ? *value_ : std::move(other); }
+  T value_or(T other) && { return value_ ? *std::move(value_) : std::move(other); }
   T& operator*() & { return checked(), *value_; }
   const T& operator*() const& { return checked(), *value_; }
   T&& operator*() && { return checked(), *std::move(value_); }
@@ -66,7 +70,8 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::move(error)), ok_(false) {}
 
   explicit operator bool() const noexcept { return ok_; }
-  const Error& error() const { return error_; }
+  bool has_value() const noexcept { return ok_; }
+  const Error& error() const noexcept { return error_; }
 
  private:
   Error error_;
@@ -74,3 +79,21 @@ class [[nodiscard]] Result<void> {
 };
 
 }  // namespace spectile
+
+#define SPECTILE_JOIN_LINE_2(name, line) name##line
+#define SPECTILE_JOIN_LINE(name, line) SPECTILE_JOIN_LINE_2(name, line)
+
+/// Returns the error of a Result<void> from the enclosing function.
+#define SPECTILE_TRY(...)                                     \
+  do {                                                        \
+    if (auto result_of_try = (__VA_ARGS__); !result_of_try) { \
+      return result_of_try.error();                           \
+    }                                                         \
+  } while (false)
+
+/// SPECTILE_ASSIGN(const auto value, function(...)): the value of a Result, or its error is returned from the
+/// enclosing function. The target may also be a variable that exists.
+#define SPECTILE_ASSIGN(target, ...)                                                                \
+  auto SPECTILE_JOIN_LINE(result_, __LINE__) = (__VA_ARGS__);                                       \
+  if (!SPECTILE_JOIN_LINE(result_, __LINE__)) return SPECTILE_JOIN_LINE(result_, __LINE__).error(); \
+  target = *std::move(SPECTILE_JOIN_LINE(result_, __LINE__))

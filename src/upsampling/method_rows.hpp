@@ -11,7 +11,9 @@ namespace spectile {
 /// An upsampler's tables in the kernels' layout.
 struct UpsamplerAccess {
   /// Shapes: [bands][8], the basis spectra and 0, 64-byte aligned. Null for the sigmoids and tetrahedral.
-  static const float* table(const Upsampler& upsampler) noexcept { return upsampler.table_.data(); }
+  static const float* table(const Upsampler& upsampler) noexcept {
+    return upsampler.table_ ? upsampler.table_->data() : nullptr;
+  }
   /// Null for all but the sigmoids.
   static const SigmoidModel* sigmoid(const Upsampler& upsampler) noexcept { return upsampler.sigmoid_.get(); }
   /// Null for all but tetrahedral.
@@ -25,8 +27,11 @@ struct UpsamplerAccess {
 
 /// A relighter's table in the kernels' layout.
 struct RelighterAccess {
-  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids and tetrahedral.
-  static const float* table(const Relighter& relighter) noexcept { return relighter.table_.data(); }
+  /// Shapes: [3][8], white, cyan, magenta, yellow, red, green, blue, 0. Null for the sigmoids and
+  /// tetrahedral.
+  static const float* table(const Relighter& relighter) noexcept {
+    return relighter.table_ ? relighter.table_->data() : nullptr;
+  }
   /// Null for all but tetrahedral.
   static const GridModel* grid(const Relighter& relighter) noexcept { return relighter.grid_.get(); }
 };

@@ -27,16 +27,16 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
     return make_error(ErrorCode::kBadArgument, "only reflectances can be relit, not light");
   }
   Relighter out;
-  out.upsampler_ = &upsampler;
-  out.projector_ = &under;
+  out.upsampler_ = std::make_shared<const Upsampler>(upsampler);
+  out.projector_ = std::make_shared<const Projector>(under);
   out.matrix_ = to;
   if (!rows::stores_rgb(upsampler)) return out;
   if (!rows::mixes_bases(upsampler)) {
     SPECTILE_TRY(out.fold_grid());
     return out;
   }
-  SPECTILE_ASSIGN(out.table_, FloatBuffer::create(3 * kSmitsRow));
-  std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
+  SPECTILE_ASSIGN(auto table, FloatBuffer::create(3 * kSmitsRow));
+  std::fill_n(table.data(), table.size(), 0.0F);
   const auto weights = under.weights();
   const auto basis = upsampler.basis();
   const std::size_t bands = weights.size();
@@ -57,11 +57,12 @@ Result<Relighter> Relighter::create(const Upsampler& upsampler, const Projector&
       }
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      out.table_.data()[k * kSmitsRow + j] = static_cast<float>(sum[k]);
+      table.data()[k * kSmitsRow + j] = static_cast<float>(sum[k]);
       magnitude[k] = std::max(magnitude[k], size[k]);
       clamped[k] = std::max(clamped[k], below[k]);
     }
   }
+  out.table_ = std::make_shared<const FloatBuffer>(std::move(table));
   // Through spectra: the table, three products and two sums a sample; a weight, a product and the runs of
   // sums; a matrix of four roundings. Directly: as many as a sample. The weights sum to the largest
   // component.

@@ -201,13 +201,14 @@ Result<Upsampler> Upsampler::create(Method method, Quantity quantity, const Band
   }
   SPECTILE_ASSIGN(out.basis_, published ? published_basis(method, quantity, bands)
                                         : exact_basis(method, quantity, bands, options, *space));
-  SPECTILE_ASSIGN(out.table_, FloatBuffer::create(bands.count() * kernels::kSmitsRow));
-  std::fill_n(out.table_.data(), out.table_.size(), 0.0F);
+  SPECTILE_ASSIGN(auto table, FloatBuffer::create(bands.count() * kernels::kSmitsRow));
+  std::fill_n(table.data(), table.size(), 0.0F);
   for (std::size_t b = 0; b < bands.count(); ++b) {
     for (std::size_t k = 0; k < 7; ++k) {
-      out.table_.data()[b * kernels::kSmitsRow + k] = static_cast<float>(out.basis_[b][k]);
+      table.data()[b * kernels::kSmitsRow + k] = static_cast<float>(out.basis_[b][k]);
     }
   }
+  out.table_ = std::make_shared<const FloatBuffer>(std::move(table));
   SPECTILE_ASSIGN(out.at_wavelengths_, wavelength_tables(out));
   return out;
 }

@@ -88,6 +88,28 @@ TEST_P(Relighting, DoesNotDependOnThreadsOrTiles) {
   }
 }
 
+/// What it was made of is gone when it is used.
+Result<Relighter> made_elsewhere(Method method) {
+  SPECTILE_ASSIGN(const auto upsampler, Upsampler::create(method, Quantity::kReflectance, Bands()));
+  SPECTILE_ASSIGN(const auto under, Projector::reflective(Bands(), *illuminant("A")));
+  return Relighter::create(upsampler, under, under.xyz_to_srgb());
+}
+
+TEST_P(Relighting, KeepsWhatItWasMadeOf) {
+  const auto upsampler = *Upsampler::create(GetParam(), Quantity::kReflectance, Bands());
+  const auto under = *Projector::reflective(Bands(), *illuminant("A"));
+  const auto here = *Relighter::create(upsampler, under, under.xyz_to_srgb());
+  const Relighter copy = *made_elsewhere(GetParam());
+  const Relighter& elsewhere = copy;
+  const ColorLanes rgb = colors(200, 0, 1, 9);
+  auto want = *ColorLanes::create(200);
+  auto got = *ColorLanes::create(200);
+  ASSERT_TRUE(relight(here, rgb, want));
+  ASSERT_TRUE(relight(elsewhere, rgb, got));
+  for (std::size_t i = 0; i < 600; ++i) EXPECT_EQ(got.at(i / 3, i % 3), want.at(i / 3, i % 3)) << i;
+  EXPECT_EQ(elsewhere.upsampler().method(), GetParam());
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Relighting, testing::ValuesIn(kRelitMethods), [](const auto& one) {
   std::string name(to_string(one.param));
   std::erase(name, '-');

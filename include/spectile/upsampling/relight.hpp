@@ -14,7 +14,8 @@ namespace spectile {
 ///
 /// For mixtures of bases the colour is linear in the weights of white, secondary and primary, so bands and
 /// light fold into a table of 3 x 7 (3 x 3 for mallett), whatever the bands; for tetrahedral into one of 3 x
-/// 125. Sigmoids are not linear: their coefficients are found and its samples summed in registers.
+/// 125. Sigmoids are not linear: their coefficients are found and its samples summed in registers. Cheap to
+/// copy; it keeps an upsampler and a projector of its own.
 class Relighter {
  public:
   /// `under` projects the upsampler's bands, `to` takes its XYZ to the colour wanted:
@@ -34,17 +35,17 @@ class Relighter {
   friend struct RelighterAccess;
   Relighter() = default;
   Result<void> fold_grid();
-  const Upsampler* upsampler_ = nullptr;
-  const Projector* projector_ = nullptr;
+  std::shared_ptr<const Upsampler> upsampler_;
+  std::shared_ptr<const Projector> projector_;
   Matrix3 matrix_{};
-  FloatBuffer table_;
+  std::shared_ptr<const FloatBuffer> table_;
   std::shared_ptr<const GridModel> grid_;
   std::array<double, 3> bound_{};
 };
 
-/// The colour of each lane. The relighter's upsampler and projector must still exist. Shapes: in, out three
-/// times [lanes]; they may be the same. Numbers: NaN and infinities as for upsample_srgb() and project().
-/// Errors: kSizeMismatch; kBadArgument for samples not aligned.
+/// The colour of each lane. Shapes: in, out three times [lanes]; they may be the same. Numbers: NaN and
+/// infinities as for upsample_srgb() and project(). Errors: kSizeMismatch; kBadArgument for samples not
+/// aligned.
 Result<void> relight(const Relighter& relighter, ColorView rgb, ColorSpan out,
                      const Execution& execution = {});
 

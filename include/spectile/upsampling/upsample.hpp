@@ -81,7 +81,7 @@ struct SigmoidModel;
 struct GridModel;
 struct WavelengthTables;
 
-/// A method prepared for given bands, ready for the kernels.
+/// A method prepared for given bands, ready for the kernels. Cheap to copy: copies share their tables.
 ///
 /// Its RGB: primaries of the options, and RGB 1, 1, 1 is the perfect diffuser under their light, as these
 /// bands and this observer see it (for an illuminant, that light itself with luminance 1). `smits` and
@@ -130,7 +130,7 @@ class Upsampler {
   Matrix3 rgb_to_xyz_{};
   std::array<float, 3> luminance_{};
   std::vector<std::array<double, 7>> basis_;
-  FloatBuffer table_;
+  std::shared_ptr<const FloatBuffer> table_;
   std::shared_ptr<const SigmoidModel> sigmoid_;
   std::shared_ptr<const GridModel> grid_;
   std::shared_ptr<const WavelengthTables> at_wavelengths_;
