@@ -202,6 +202,24 @@ void visible_wavelengths(float* lambda_nm, float* density, const float* u, const
   }
 }
 
+void table_wavelengths(float* lambda_nm, float* density, const float* u, const BinTable& table,
+                       std::size_t count, std::size_t blocks) noexcept {
+  const BinTable t = table;  // a copy that stores leave alone
+  const F32 one(1.0F);
+  for (std::size_t i = 0; i < blocks * kLanes; i += kWidth) {
+    spread(load(u + i), count, [&](std::size_t k, F32 v) {
+      const F32 share = xsimd::select(is_nan(v), F32(0.0F), v);
+      const I32 bin = last_knot(t.knots, t, share);
+      const Pair pair = gather_pair(t.bins, bin);
+      const F32 low = F32(t.first_nm) + xsimd::to_float(bin);
+      const F32 lambda = low + (share - gather(t.knots, bin)) * pair.first;
+      const std::size_t at = own_sample(i, k, count);
+      store(lambda_nm + at, or_nan(v, min((low + one) * F32(1.0F - 0x1p-24F), lambda)));
+      store(density + at, pair.second);
+    });
+  }
+}
+
 void project_wavelengths(float* const dst[3], const WavelengthBlocks& samples, const EvenTable curves[3],
                          float factor, std::size_t blocks) noexcept {
   const F32 zero(0.0F);

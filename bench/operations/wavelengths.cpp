@@ -12,6 +12,7 @@
 #include "kernels/exponential_constants.hpp"
 #include "src/base/errors.hpp"
 #include "src/lanes/knot_index.hpp"
+#include "src/lanes/wavelength_bins.hpp"
 
 namespace spectile::measure {
 namespace {
@@ -207,6 +208,54 @@ void add_gaussians(std::vector<Operation>& to) {
   });
 }
 
+/// The k-th number that a random one stands for, as the kernels have it: a sum in float that reaches 1 starts
+/// anew at 0, and its rounding with it.
+double spread(double u, std::size_t k) {
+  if (std::isnan(u)) return u;
+  const double first = std::clamp(u, 0.0, 1 - 0x1p-24);
+  const float moved = static_cast<float>(first) + static_cast<float>(k) / static_cast<float>(kWavelengths);
+  return moved >= 1.0F ? static_cast<double>(moved - 1.0F) : static_cast<double>(moved);
+}
+
+/// As FL11 falls on the eye.
+Result<void> add_draws_of_a_light(std::vector<Operation>& to) {
+  SPECTILE_ASSIGN(const auto light, named_spectrum("FL11"));
+  SPECTILE_ASSIGN(const auto distribution, WavelengthDistribution::of_light(light));
+  Operation& op = wavelength_operation(to, "draw 4 wavelengths, of a light");
+  op.item = "draw";
+  op.out = {2, kWavelengths};
+  op.fill = uniform_values(1, 0.0F, 1.0F);
+  const auto table = [=]() -> const kernels::BinTable& {
+    return WavelengthDistributionAccess::tables(distribution).table;
+  };
+  // A wavelength: its number (5), its bucket (3), steps (3 each), its place (6), NaN (4).
+  op.operations = 2 + kWavelengths * (5 + 3 + 3.0 * table().halvings + 6 + 4);
+  op.bottleneck = "gathers: five loads a wavelength, and one for each step of the search";
+  op.bound = 2;
+  op.run = [=](const KernelTable& k, const Arrays& a) {
+    k.table_wavelengths(a.out(0), a.out(1), a.in(), table(), kWavelengths, a.blocks);
+  };
+  op.error = error_against(
+      2 * kWavelengths, 0, false, op.bound, [=](const double* v, double* reference, double* scale) {
+        const kernels::BinTable& t = table();
+        for (std::size_t i = 0; i < kWavelengths; ++i) {
+          const double u = spread(v[0], i);
+          const double share = std::isnan(u) ? 0 : u;
+          const float* const end = t.knots + t.count;
+          const float* const after = std::upper_bound(t.knots, end, static_cast<float>(share));
+          const auto bin = after - t.knots - 1;
+          const double low = static_cast<double>(t.first_nm) + static_cast<double>(bin);
+          const double start = static_cast<double>(t.knots[bin]);
+          const double next = after < end ? static_cast<double>(*after) : 1;
+          reference[i] = std::isnan(u) ? u : low + (share - start) / (next - start);
+          reference[kWavelengths + i] = next - start;
+          scale[i] = std::abs(reference[i]);
+          scale[kWavelengths + i] = next - start;
+        }
+      });
+  return {};
+}
+
 void add_draws(std::vector<Operation>& to) {
   // The density tanh'(0.0072 (lambda - 538)). Source: see wavelengths.hpp.
   constexpr double kSteepness = 0.0072;
@@ -240,12 +289,8 @@ void add_draws(std::vector<Operation>& to) {
     };
     op.error = error_against(
         2 * kWavelengths, 0, false, op.bound, [=](const double* v, double* reference, double* scale) {
-          const double first = std::isnan(v[0]) ? v[0] : std::clamp(v[0], 0.0, 1 - 0x1p-24);
           for (std::size_t i = 0; i < kWavelengths; ++i) {
-            // A sum in float that reaches 1 starts anew at 0, and its rounding with it.
-            const float moved =
-                static_cast<float>(first) + static_cast<float>(i) / static_cast<float>(kWavelengths);
-            const double u = moved >= 1.0F ? static_cast<double>(moved - 1.0F) : static_cast<double>(moved);
+            const double u = spread(v[0], i);
             const double y = d.from - u * d.by;
             reference[i] = visible ? kCentre - std::atanh(y) / kSteepness : 360 + u * 470;
             reference[kWavelengths + i] = visible ? d.peak * (1 - y * y) : 1.0 / 470;
@@ -277,7 +322,7 @@ Result<void> add_wavelengths(std::vector<Operation>& to) {
   add_planck(to);
   add_gaussians(to);
   add_draws(to);
-  return {};
+  return add_draws_of_a_light(to);
 }
 
 }  // namespace spectile::measure

@@ -26,6 +26,7 @@
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/lanes/spectral_axis.hpp>
 #include <spectile/lanes/spectrum_sampler.hpp>
+#include <spectile/lanes/wavelength_distribution.hpp>
 #include <spectile/lanes/wavelengths.hpp>
 #include <spectile/output_file.hpp>
 #include <spectile/pixel_window.hpp>

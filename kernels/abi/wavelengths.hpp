@@ -89,6 +89,19 @@ struct WavelengthDensity {
   double peak;                         ///< visible: density at the centre
 };
 
+/// A distribution of wavelengths by nanometres: the share of the draws below each is searched for as the
+/// knots of KnotTable.
+struct BinTable {
+  const float* knots = nullptr;  ///< [count + 2^halvings], ascending from 0; infinities from count on
+  const float* bins = nullptr;   ///< [count][2]: nanometres a share, density
+  std::int32_t count = 0;
+  float first_nm = 0;  ///< a whole number
+  const std::int32_t* start = nullptr;
+  float buckets_per_nm = 0;  ///< a share
+  std::int32_t buckets = 0;
+  std::int32_t halvings = 0;
+};
+
 /// Lanes with `count` wavelengths of their own. Shapes: [block][count][64].
 struct WavelengthBlocks {
   const float* values;
@@ -145,6 +158,10 @@ struct WavelengthKernels {
   /// Rendering, Journal of WSCG 17, 2009.
   void (*visible_wavelengths)(float* lambda_nm, float* density, const float* u, const WavelengthDensity& d,
                               std::size_t count, std::size_t blocks) noexcept;
+  /// i: last nanometre whose share is at or below u[k]; low = first + i
+  /// lambda[k] = min(low + (u[k] - share[i]) * bins[i][0], (low + 1) * (1 - 2^-24)), density[k] = bins[i][1]
+  void (*table_wavelengths)(float* lambda_nm, float* density, const float* u, const BinTable& table,
+                            std::size_t count, std::size_t blocks) noexcept;
   /// dst[c] = factor * sum(k) curve[c](lambda[k]) * (values[k] / density[k]), curves as in interpolate_even
   /// density 0: adds nothing, whatever the value. curves: three tables of the same wavelengths
   void (*project_wavelengths)(float* const dst[3], const WavelengthBlocks& samples, const EvenTable curves[3],

@@ -17,6 +17,7 @@ constexpr WavelengthKernels wavelengths = {
     .sigmoids_at = sigmoids_at,
     .even_wavelengths = even_wavelengths,
     .visible_wavelengths = visible_wavelengths,
+    .table_wavelengths = table_wavelengths,
     .project_wavelengths = project_wavelengths,
 };
 

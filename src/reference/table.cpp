@@ -73,6 +73,7 @@ const kernels::KernelTable kKernelTable = {
         .sigmoids_at = sigmoids_at,
         .even_wavelengths = even_wavelengths,
         .visible_wavelengths = visible_wavelengths,
+        .table_wavelengths = table_wavelengths,
         .project_wavelengths = project_wavelengths,
     },
     {

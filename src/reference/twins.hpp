@@ -72,6 +72,7 @@ SPECTILE_TWIN(WavelengthKernels, grid_at);
 SPECTILE_TWIN(WavelengthKernels, sigmoids_at);
 SPECTILE_TWIN(WavelengthKernels, even_wavelengths);
 SPECTILE_TWIN(WavelengthKernels, visible_wavelengths);
+SPECTILE_TWIN(WavelengthKernels, table_wavelengths);
 SPECTILE_TWIN(WavelengthKernels, project_wavelengths);
 
 SPECTILE_TWIN(FilmKernels, film_weigh_wavelengths);

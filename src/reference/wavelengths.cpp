@@ -153,6 +153,23 @@ void visible_wavelengths(float* lambda_nm, float* density, const float* u, const
   }
 }
 
+void table_wavelengths(float* lambda_nm, float* density, const float* u, const kernels::BinTable& table,
+                       std::size_t count, std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const float v = spread(u[i], k, count);
+      const float share = std::isnan(v) ? 0.0F : v;
+      const std::int32_t bin = last_knot(table, share);
+      const float* const pair = table.bins + std::ptrdiff_t{2} * bin;
+      const float low = table.first_nm + static_cast<float>(bin);
+      const float lambda = low + (share - table.knots[bin]) * pair[0];
+      const std::size_t at = own_sample(i, k, count);
+      lambda_nm[at] = std::isnan(v) ? v : std::min((low + 1.0F) * (1.0F - 0x1p-24F), lambda);
+      density[at] = pair[1];
+    }
+  }
+}
+
 void project_wavelengths(float* const dst[3], const kernels::WavelengthBlocks& samples,
                          const EvenTable curves[3], float factor, std::size_t blocks) noexcept {
   for (std::size_t c = 0; c < 3; ++c) {

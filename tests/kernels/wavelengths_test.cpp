@@ -107,6 +107,27 @@ TEST_P(WavelengthKernels, DrawnWavelengthsAndTheirSumsAreTheReferences) {
   }
 }
 
+TEST_P(WavelengthKernels, WavelengthsOfATableAreTheReferences) {
+  Floats u = plain_floats(kAll, 15);
+  const Floats arbitrary = arbitrary_floats(kAll, 16);
+  for (std::size_t i = 0; i < kAll; i += 5) u[i] = arbitrary[i];
+  // Shares of five nanometres, of which two are never drawn.
+  const float knots[] = {0, 0.25F, 0.25F, 0.7F, 1, kInf, kInf, kInf, kInf};
+  const std::int32_t start[] = {0, 2, 2, 3};
+  const float bins[] = {4, 0.25F, 0, 0, 1 / 0.45F, 0.45F, 1 / 0.3F, 0.3F, 0, 0};
+  const kernels::BinTable table = {knots, bins, 5, 400, start, 4, 4, 2};
+  constexpr std::size_t kCount = 3;
+  Floats got[2] = {Floats(kCount * kAll), Floats(kCount * kAll)};
+  Floats want[2] = {Floats(kCount * kAll), Floats(kCount * kAll)};
+  const std::size_t blocks = kAll / kernels::kLanes;
+  k().table_wavelengths(got[0].data(), got[1].data(), u.data(), table, kCount, blocks);
+  ref().table_wavelengths(want[0].data(), want[1].data(), u.data(), table, kCount, blocks);
+  EXPECT_TRUE(same_bits(got[0], want[0]));
+  EXPECT_TRUE(same_bits(got[1], want[1]));
+  EXPECT_TRUE(got[0].guard_holds());
+  for (std::size_t i = 0; i < kCount * kAll; ++i) EXPECT_FALSE(got[0][i] >= 401 && got[0][i] < 402) << i;
+}
+
 SPECTILE_FOR_EVERY_ISA(WavelengthKernels);
 
 }  // namespace
