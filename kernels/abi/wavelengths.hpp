@@ -95,7 +95,7 @@ struct BinTable {
   const float* knots = nullptr;  ///< [count + 2^halvings], ascending from 0; infinities from count on
   const float* bins = nullptr;   ///< [count][2]: nanometres a share, density
   std::int32_t count = 0;
-  float first_nm = 0;  ///< a whole number
+  float first_nm = 0;  ///< an integer
   const std::int32_t* start = nullptr;
   float buckets_per_nm = 0;  ///< a share
   std::int32_t buckets = 0;

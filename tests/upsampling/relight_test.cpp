@@ -88,7 +88,7 @@ TEST_P(Relighting, DoesNotDependOnThreadsOrTiles) {
   }
 }
 
-/// What it was made of is gone when it is used.
+/// The upsampler and projector that it was made of are gone when it is used.
 Result<Relighter> made_elsewhere(Method method) {
   SPECTILE_ASSIGN(const auto upsampler, Upsampler::create(method, Quantity::kReflectance, Bands()));
   SPECTILE_ASSIGN(const auto under, Projector::reflective(Bands(), *illuminant("A")));

@@ -100,7 +100,7 @@ struct MethodSpeed {
   double spread = 0;
   std::uint64_t bytes = 0;  ///< that the pixel takes in memory or in a file, 0 where nothing is stored
   ColorError error;
-  bool frontier = false;  ///< no other method is as fast and as accurate, by mean error
+  bool frontier = false;                 ///< no other method is as fast and as accurate, by mean error
   std::vector<double> differences = {};  ///< of each reflectance, where they were asked for
 };
 
@@ -161,19 +161,19 @@ struct BenchmarkReport {
 };
 
 struct BenchmarkOptions {
-  bool quick = false;                  ///< one or two minutes rather than six
-  bool memory = true;                  ///< also of what lies in memory, not in the caches
-  bool speed = true;                   ///< limits, operations, methods, representations
-  bool stress = false;                 ///< also the long form of the numbers' stress test
-  std::vector<int> threads;            ///< 1, 2, 4 ... up to the cores where empty
-  std::vector<std::string> isas;       ///< every one that runs here where empty
-  std::vector<std::string> lights;     ///< by name; four smooth and line spectra where empty
-  std::vector<std::string> only;       ///< operations whose name contains one of these; all where empty
-  bool differences = false;            ///< also of each reflectance by each method
-  std::vector<Spectrum> reflectances;  ///< errors are over these; the 24 of the ColorChecker where empty
-  std::uint64_t seed = 1;              ///< of the inputs
+  bool quick = false;                       ///< one or two minutes rather than six
+  bool memory = true;                       ///< also of what lies in memory, not in the caches
+  bool speed = true;                        ///< limits, operations, methods, representations
+  bool stress = false;                      ///< also the long form of the numbers' stress test
+  std::vector<int> threads = {};            ///< 1, 2, 4 ... up to the cores where empty
+  std::vector<std::string> isas = {};       ///< every one that runs here where empty
+  std::vector<std::string> lights = {};     ///< by name; four smooth and line spectra where empty
+  std::vector<std::string> only = {};       ///< operations whose name contains one of these; all where empty
+  bool differences = false;                 ///< also of each reflectance by each method
+  std::vector<Spectrum> reflectances = {};  ///< errors are over these; the 24 of the ColorChecker where empty
+  std::uint64_t seed = 1;                   ///< of the inputs
   /// Called before each part; false ends the run with kCancelled.
-  std::function<bool(const std::string& part, double done)> progress;
+  std::function<bool(const std::string& part, double done)> progress = {};
 };
 
 /// Runs the benchmark. One thing at a time, medians of interleaved runs. Errors: kBadArgument for lights,

@@ -14,8 +14,8 @@ namespace spectile {
 
 /// How a sensor is set.
 struct SensorOptions {
-  double exposure = 1;                    ///< times every response
-  std::optional<Spectrum> white_balance;  ///< light that gets three equal responses, whatever its scale
+  double exposure = 1;                         ///< times every response
+  std::optional<Spectrum> white_balance = {};  ///< light that gets three equal responses, whatever its scale
 };
 
 /// Three response curves, each times a factor: a spectrum that is 1 everywhere gives the second one the

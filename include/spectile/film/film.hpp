@@ -37,21 +37,21 @@ struct RowsView {
 /// Samples with radiance at sampled wavelengths. Shapes: x, y [n] in pixels, pixel (i, j) reaching from i to
 /// i + 1 and j to j + 1; weight [n], or empty for 1; the rows [k][n].
 struct WavelengthSamples {
-  std::span<const float> x, y, weight;
-  RowsView radiance;
-  RowsView lambda_nm;  ///< nm
-  RowsView density;    ///< 1/nm; 0 for a wavelength that is terminated
+  std::span<const float> x = {}, y = {}, weight = {};
+  RowsView radiance = {};
+  RowsView lambda_nm = {};  ///< nm
+  RowsView density = {};    ///< 1/nm; 0 for a wavelength that is terminated
 };
 
 /// Samples with radiance on the film's bands. Shapes: as above, radiance [band][n].
 struct BandSamples {
-  std::span<const float> x, y, weight;
-  RowsView radiance;
+  std::span<const float> x = {}, y = {}, weight = {};
+  RowsView radiance = {};
 };
 
 /// Positions and weights of samples. Shapes: as above.
 struct SamplePositions {
-  std::span<const float> x, y, weight;
+  std::span<const float> x = {}, y = {}, weight = {};
 };
 
 /// The kind of samples that a film takes.
@@ -80,17 +80,17 @@ struct NamedSensor {
 struct FilmOptions {
   int width = 0;
   int height = 0;
-  std::optional<PixelWindow> crop;  ///< the pixels kept; all where none
-  PixelFilter filter;
+  std::optional<PixelWindow> crop = {};  ///< the pixels kept; all where none
+  PixelFilter filter = {};
   SamplePlacement placement = SamplePlacement::kOnePixel;
   FilmInput input = FilmInput::kWavelengths;
   /// Colours, at least one colour or the spectrum. XYZ for the observer, Y being 1 for radiance 1 throughout.
   std::optional<Observer> xyz = Observer::kCie1931;
-  std::vector<NamedSensor> sensors;
+  std::vector<NamedSensor> sensors = {};
   /// True to keep spectra, on the bands below. Fed with wavelengths, a band's value is the mean of the
   /// radiance of those that fell into it, each weighed by one over its density.
   bool spectral = false;
-  Bands bands;  ///< also those of band input
+  Bands bands = {};  ///< also those of band input
   PixelStatistics statistics = PixelStatistics::kNone;
   /// Colours with a larger component, and for the spectrum samples with larger radiance, are scaled down to
   /// it before they are weighed.

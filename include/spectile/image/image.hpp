@@ -68,44 +68,44 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// A channel whose name says no wavelength, and the band that it holds.
 struct MappedChannel {
-  std::string name;
-  Band band;
+  std::string name = {};
+  Band band = {};
 };
 
 /// Which of a file's channels to read. Where nothing is said: the plain ones, or the only ones that there
 /// are; of a stereo file the default view; of several parts the first that has any.
 struct ChannelChoice {
-  std::string layer;  ///< of channels named LAYER.NAME; the name of a view or a part is taken too
-  std::string view;   ///< of a stereo file, such as "right"
-  std::string part;   ///< of a file of several parts: its name, or its number, from 0
+  std::string layer = {};  ///< of channels named LAYER.NAME; the name of a view or a part is taken too
+  std::string view = {};   ///< of a stereo file, such as "right"
+  std::string part = {};   ///< of a file of several parts: its name, or its number, from 0
   /// Where it is not empty: the spectral channels, whatever their names. See load_channel_map().
-  std::vector<MappedChannel> map;
+  std::vector<MappedChannel> map = {};
 };
 
 /// Options of every conversion.
 struct ImageOptions {
   SampleType pixel = SampleType::kHalf;
-  Compression compression;
+  Compression compression = {};
   NonFinite nonfinite = NonFinite::kStop;
   /// The part of the input to convert, in the coordinates of its data window, which is then the output's; all
   /// of it where none. No more is decoded than the lines, or tiles, that it touches. Clamped to the data
   /// window, which the report notes; kBadArgument where it lies outside. For
   /// functions that read one image.
-  std::optional<PixelWindow> region;
+  std::optional<PixelWindow> region = {};
   int threads = 0;                 ///< 0: every core that the process may use
   std::size_t tile_lanes = 65536;  ///< most pixels a kernel call works on, 64 or more
   /// upsample_image: whether what is black, masked, constant or repeated is found and not computed again. The
   /// file is the same to the bit without; SkipStats says what it was good for.
   bool skip = true;
   /// Conversions of an image to another write tiles of this width and height, 1 to 4096; none: scanlines.
-  std::optional<std::array<int, 2>> tile;
+  std::optional<std::array<int, 2>> tile = {};
   /// Conversions of an image to another write mip levels too, down to one pixel, sizes rounded down, in tiles
   /// of 64 x 64 where `tile` says nothing. A level's pixel is the average of the area that it covers: of
   /// spectra, or of colours in linear light. kBadArgument for coefficients that are not linear in spectra.
   bool mipmap = false;
   bool durable = false;  ///< wait for the device, so that no loss of power takes a file back; films always do
-  ChannelChoice channels;
-  ProgressFunction progress;
+  ChannelChoice channels = {};
+  ProgressFunction progress = {};
 };
 
 /// Meaning of the colour of a pixel that is not opaque.

@@ -26,7 +26,7 @@ template <class Float>
 struct BatchView {
   Float* data = nullptr;
   std::size_t lanes = 0;
-  SpectralAxis axis;
+  SpectralAxis axis = {};
 
   std::size_t blocks() const noexcept { return blocks_for(lanes); }
   std::size_t floats() const noexcept { return blocks() * axis.count() * kLanesPerBlock; }

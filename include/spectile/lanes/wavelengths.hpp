@@ -9,8 +9,8 @@ namespace spectile {
 /// Read-only view of K wavelengths in each of n lanes, and of the densities that they were drawn with:
 /// batches on one axis. Units: nm, 1/nm.
 struct SampledWavelengthsView {
-  SampledSpectraView lambda_nm;
-  SampledSpectraView density;  ///< 0 for a wavelength that is terminated
+  SampledSpectraView lambda_nm = {};
+  SampledSpectraView density = {};  ///< 0 for a wavelength that is terminated
   /// As SampledSpectraView::range().
   SampledWavelengthsView range(std::size_t first, std::size_t count) const {
     return {lambda_nm.range(first, count), density.range(first, count)};

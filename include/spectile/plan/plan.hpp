@@ -75,19 +75,19 @@ Plan plan_of_bands(const Bands& bands);
 
 /// The scene that a plan is made for, and its size.
 struct PlannerOptions {
-  std::vector<NamedLight> lights;  ///< 0 beyond their tables' ends
+  std::vector<NamedLight> lights = {};  ///< 0 beyond their tables' ends
   /// Reflectances of the scene, constant beyond their ends; outside -0.1 to 2 they are an error.
-  std::vector<Spectrum> reflectances;
+  std::vector<Spectrum> reflectances = {};
   BandSampling sampling = BandSampling::kPoints;  ///< averages err less, much less for one light
   bool apart =
       false;  ///< bands never overlap, as films fed with wavelengths need; with several lights they do not
-  int bounces = 1;                   ///< products of up to so many reflectances, 1 to 4
-  std::optional<std::size_t> bands;  ///< number of wavelengths, 3 to 64
-  std::optional<double>
-      max_error;  ///< or the smallest number that keeps every light's and bounce's maximum below this
+  int bounces = 1;                        ///< products of up to so many reflectances, 1 to 4
+  std::optional<std::size_t> bands = {};  ///< number of wavelengths, 3 to 64
+  std::optional<double> max_error =
+      {};  ///< or the smallest number that keeps every light's and bounce's maximum below this
   Observer observer = Observer::kCie1931;
-  int folds = 5;                ///< of the cross-validation; 0 for none
-  std::function<bool()> go_on;  ///< asked some times a second; false stops with kCancelled
+  int folds = 5;                     ///< of the cross-validation; 0 for none
+  std::function<bool()> go_on = {};  ///< asked some times a second; false stops with kCancelled
 };
 
 /// Chooses wavelengths and weights.

@@ -25,22 +25,22 @@ namespace spectile {
 
 /// A small piece of a surface.
 struct Receiver {
-  Vector3 position_m;
+  Vector3 position_m = {};
   Vector3 normal = {0, 0, 1};
 };
 
 /// A disk, bright on the side to which its normal points.
 struct DiskEmitter {
-  Vector3 centre_m;
+  Vector3 centre_m = {};
   Vector3 normal = {0, 0, 1};
   double radius_m = 0;
 };
 
 /// A parallelogram: a square, a rectangle. Bright on the side to which cross(edge_u, edge_v) points.
 struct QuadEmitter {
-  Vector3 corner_m;
-  Vector3 edge_u_m;
-  Vector3 edge_v_m;
+  Vector3 corner_m = {};
+  Vector3 edge_u_m = {};
+  Vector3 edge_v_m = {};
 };
 
 // --- in closed form --------------------------------------------------------------------------------------

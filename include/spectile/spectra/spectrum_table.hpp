@@ -26,11 +26,11 @@ enum class SpectrumUse {
 /// Facts about a table that its file does not state, or states wrongly.
 struct SpectrumFileOptions {
   SpectrumUse use = SpectrumUse::kAny;
-  std::optional<Ends> ends;                   ///< none: as the use has it
-  std::optional<WavelengthUnit> wavelengths;  ///< none: as headings say, else by the numbers
-  std::optional<double> one;      ///< the value that stands for 1: 1 for fractions, 100 for percent
-  std::optional<double> missing;  ///< a value that marks a missing sample: -1.23e34
-  std::string column;             ///< name of one spectrum, or its number from 0; empty: all of them
+  std::optional<Ends> ends = {};                   ///< none: as the use has it
+  std::optional<WavelengthUnit> wavelengths = {};  ///< none: as headings say, else by the numbers
+  std::optional<double> one = {};      ///< the value that stands for 1: 1 for fractions, 100 for percent
+  std::optional<double> missing = {};  ///< a value that marks a missing sample: -1.23e34
+  std::string column = {};             ///< name of one spectrum, or its number from 0; empty: all of them
 };
 
 /// The spectra of a file, in its order.

@@ -48,9 +48,9 @@ struct ReflectanceSet {
 };
 
 struct LearningOptions {
-  std::optional<NamedLight> light;  ///< as in LearnedNodes; D65 where none
+  std::optional<NamedLight> light = {};  ///< as in LearnedNodes; D65 where none
   Observer observer = Observer::kCie1931;
-  std::function<bool()> go_on;  ///< asked some times a second; false stops with kCancelled
+  std::function<bool()> go_on = {};  ///< asked some times a second; false stops with kCancelled
 };
 
 /// Learns nodes.

@@ -71,10 +71,11 @@ struct LearnedNodes;
 /// Viewing conditions under which the spectra must have the colours asked for.
 struct UpsamplerOptions {
   NegativeSamples negative = NegativeSamples::kClampToZero;
-  Chromaticities primaries = kRec709;     ///< of the RGB; free for smits-exact, the sigmoids and tetrahedral
-  std::optional<MeasuredSpectrum> light;  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
+  Chromaticities primaries = kRec709;  ///< of the RGB; free for smits-exact, the sigmoids and tetrahedral
+  std::optional<MeasuredSpectrum> light =
+      {};  ///< under which RGB 1, 1, 1 is the perfect diffuser; D65 where none
   Observer observer = Observer::kCie1931;
-  std::shared_ptr<const LearnedNodes> nodes;  ///< of tetrahedral: learned ones; none for sigmoids
+  std::shared_ptr<const LearnedNodes> nodes = {};  ///< of tetrahedral: learned ones; none for sigmoids
 };
 
 struct SigmoidModel;
