@@ -133,6 +133,46 @@ void maximum(float* dst, const float* spectra, std::size_t bands, std::size_t bl
              [](F32 most, F32 s) { return max(s, most); });  // most < s ? s : most
 }
 
+/// One bounce of a vector of lanes; the bits of those that end.
+template <bool kRoulette>
+inline std::uint64_t bounce(float* dst, const float* a, const float* f, F32 density, const float* u,
+                            std::size_t bands) noexcept {
+  const F32 zero(0.0F);
+  const F32 one(1.0F);
+  if constexpr (!kRoulette) {
+    const F32 factor = divide(one, density);
+    for (std::size_t at = 0; at < bands * kLanes; at += kLanes)
+      store(dst + at, xsimd::select(density <= zero, zero, (load(a + at) * load(f + at)) * factor));
+    return 0;
+  }
+  F32 most(-__builtin_inff());
+  for (std::size_t at = 0; at < bands * kLanes; at += kLanes) {
+    const F32 product = load(a + at) * load(f + at);
+    most = max(product, most);  // most < product ? product : most
+    store(dst + at, product);
+  }
+  const Mask lives = (density > zero) & (load(u) * density < most);
+  const F32 factor = divide(one, xsimd::select(most < density, most, density));
+  for (std::size_t at = 0; at < bands * kLanes; at += kLanes)
+    store(dst + at, xsimd::select(lives, load(dst + at) * factor, zero));
+  return ~lane_bits(lives) & ((std::uint64_t{1} << (kWidth - 1) << 1) - 1);
+}
+
+void update_throughput(float* dst, std::uint64_t* ended, const float* a, const float* f, const float* density,
+                       const float* u, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::uint64_t bits = 0;
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) {
+      const std::size_t at = block * bands * kLanes + lane;
+      const F32 by = load(density + block * kLanes + lane);
+      bits |= (u == nullptr ? bounce<false>(dst + at, a + at, f + at, by, nullptr, bands)
+                            : bounce<true>(dst + at, a + at, f + at, by, u + block * kLanes + lane, bands))
+              << lane;
+    }
+    ended[block] = bits;
+  }
+}
+
 /// Lanes of a block whose sums of samples are NaN: those with a NaN sample, and some with infinities.
 inline std::uint64_t maybe_nan(const float* block, std::size_t bands) noexcept {
   F32 sums[kLanes / kWidth];

@@ -88,6 +88,7 @@ struct AosBaseline {
   /// Three numbers and 4 wavelengths to 4 samples: of a mixture of the basis, by a branch and by an index,
   /// and of a sigmoid.
   AosFunction mixture_at, mixture_at_fused, sigmoids_at;
+  AosFunction update_throughput;  ///< four samples, four, a density and a random number
   /// 4 wavelengths and their densities, drawn as the eye sees from one number.
   AosFunction draw_visible;
   /// The nearest nanometre of each curve by lround; by a conversion (tuned by hand); with wavelengths drawn

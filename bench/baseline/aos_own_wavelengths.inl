@@ -85,3 +85,15 @@ void sigmoids_at(const AosTables& /*tables*/, const float* in, float* out, std::
     }
   }
 }
+
+/// A bounce and Russian roulette: throughput and scattering of four samples, a density, a random number.
+void update_throughput(const AosTables& /*tables*/, const float* in, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 10, out += 4) {
+    FourSamples beta = load<4>(in) * load<4>(in + 4);
+    beta = beta * (1 / in[8]);
+    float most = beta.c[0];
+    for (int k = 1; k < 4; ++k) most = most < beta.c[k] ? beta.c[k] : most;
+    const float survival = most > 1 ? 1 : most;
+    *reinterpret_cast<FourSamples*>(out) = beta * (in[9] < survival ? 1 / survival : 0);
+  }
+}

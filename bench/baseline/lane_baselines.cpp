@@ -83,6 +83,7 @@ Functions functions_for(std::string_view operation) {
                            {"sigmoid at wavelengths", b.sigmoid_at},
                            {"colour at 4 wavelengths, smits-exact", b.mixture_at, b.mixture_at_fused},
                            {"coefficients at 4 wavelengths, sigmoid", b.sigmoids_at},
+                           {"update throughput", b.update_throughput},
                            {"draw 4 wavelengths, visible", b.draw_visible}};
   for (const Functions& f : all) {
     if (operation == f.operation) return f;

@@ -168,6 +168,9 @@ std::function<double(const double*, const double*, double)> error_between_bands(
                                                                                 double bound,
                                                                                 Oracle on_bands);
 
+/// A bounce and Russian roulette at a path's own wavelengths.
+void add_throughput(std::vector<Operation>& to);
+
 /// Rows of a line of an image in the target: a plane a band.
 void* const* line_rows(const Arrays& arrays, std::size_t bands);
 

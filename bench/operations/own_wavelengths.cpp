@@ -60,4 +60,51 @@ std::function<double(const double*, const double*, double)> error_between_bands(
       });
 }
 
+void add_throughput(std::vector<Operation>& to) {
+  // Throughput and scattering at four wavelengths, a density, and a random number.
+  constexpr std::size_t kRows = 2 * kWavelengths + 2;
+  Operation& op =
+      add_operation(to, "wavelengths", "update throughput", "path", {1, kRows}, {1, kWavelengths});
+  op.fill = [](Random& random, float* v) {
+    for (std::size_t k = 0; k < 2 * kWavelengths; ++k) v[k] = uniform(random, 0.0F, 1.0F);
+    v[kRows - 2] = uniform(random, 0.5F, 2.0F);
+    v[kRows - 1] = uniform(random, 0.0F, 1.0F);
+  };
+  // A product and the largest a sample, who lives (4), the factor (2), a product and a selection a sample.
+  op.operations = 4 * kWavelengths + 6;
+  op.divisions = 1;
+  op.bound = 4;
+  op.run = [](const KernelTable& k, const Arrays& a) {
+    for (std::size_t block = 0; block < a.blocks; ++block) {
+      const float* const rows = a.in() + block * kRows * kernels::kLanes;
+      const auto row = [&](std::size_t i) { return rows + i * kernels::kLanes; };
+      std::uint64_t ended = 0;
+      k.update_throughput(a.out() + block * kWavelengths * kernels::kLanes, &ended, row(0), row(kWavelengths),
+                          row(2 * kWavelengths), row(2 * kWavelengths + 1), kWavelengths, 1);
+    }
+  };
+  op.error = [](const double* v, const double* out, double /*tiny*/) {
+    const double density = v[kRows - 2];
+    const double u = v[kRows - 1];
+    const auto normal = [](double x) { return x > 0x1p-120 && x < 0x1p120; };
+    double most = 0;
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
+      const double product = v[k] * v[kWavelengths + k];
+      if (!normal(product) && product != 0) return kOutOfDomain;
+      most = std::max(most, product);
+    }
+    const double survival = std::min(1.0, most / density);
+    if (!normal(density) || !normal(most) || !(u >= 0 && u <= 1)) return kOutOfDomain;
+    // Rounding decides who lives where the number is as near.
+    if (std::abs(u - survival) < 0x1p-21 * survival || (u > 0 && u * density < 0x1p-120)) return kOutOfDomain;
+    double worst = 0;
+    for (std::size_t k = 0; k < kWavelengths; ++k) {
+      const double want = u < survival ? v[k] * v[kWavelengths + k] / density / survival : 0;
+      if (want == 0 && out[k] != 0) return kBeyond;
+      if (normal(want)) worst = std::max(worst, std::abs(out[k] - want) / (0x1p-24 * want));
+    }
+    return worst;
+  };
+}
+
 }  // namespace spectile::measure

@@ -322,6 +322,7 @@ Result<void> add_wavelengths(std::vector<Operation>& to) {
   add_planck(to);
   add_gaussians(to);
   add_draws(to);
+  add_throughput(to);
   return add_draws_of_a_light(to);
 }
 

@@ -47,6 +47,13 @@ struct ArithmeticKernels {
   void (*transmittance)(float* dst, const float* a, const float* t, std::size_t bands,
                         std::size_t blocks) noexcept;
 
+  /// A bounce and Russian roulette: p = a * f, m = largest p, NaN ignored
+  /// density > 0 and u * density < m: p * (1 / (m < density ? m : density)); else 0, and the lane's bit of
+  /// `ended`. u null: density <= 0 ? 0 : p * (1 / density), no bit
+  void (*update_throughput)(float* dst, std::uint64_t* ended, const float* a, const float* f,
+                            const float* density, const float* u, std::size_t bands,
+                            std::size_t blocks) noexcept;
+
   // One number a lane over the bands of a batch [blocks][bands][kLanes]; dst [blocks][kLanes].
   /// smallest sample; NaN ignored; all NaN: +infinity
   void (*minimum)(float* dst, const float* spectra, std::size_t bands, std::size_t blocks) noexcept;

@@ -26,6 +26,7 @@ constexpr ArithmeticKernels arithmetic = {
     .scale_bands = scale_bands,
     .lerp_lanes = lerp_lanes,
     .transmittance = transmittance,
+    .update_throughput = update_throughput,
     .minimum = minimum,
     .maximum = maximum,
     .black_mask = black_mask,

@@ -82,6 +82,12 @@ Result<void> per_lane(const SampledSpectraView& a, const LanesSpan& out, const E
   return {};
 }
 
+/// Clears the bits of the lanes that pad the last block.
+void clear_padding(LaneMask& mask, std::size_t lanes) {
+  if (const std::size_t rest = lanes % kLanesPerBlock; rest != 0)
+    mask.back() &= (std::uint64_t{1} << rest) - 1;
+}
+
 /// Runs kernel(table, words, offset, blocks) for a mask over the lanes of `a`, and clears the padding's bits.
 template <class Kernel>
 Result<LaneMask> compute_mask(const SampledSpectraView& a, const Execution& execution, Kernel kernel) {
@@ -91,8 +97,7 @@ Result<LaneMask> compute_mask(const SampledSpectraView& a, const Execution& exec
   tiles::for_blocks(mask.size(), execution, [&](std::size_t first, std::size_t count) {
     kernel(*table, mask.data() + first, first * a.axis.count() * kLanesPerBlock, count);
   });
-  if (const std::size_t rest = a.lanes % kLanesPerBlock; rest != 0)
-    mask.back() &= (std::uint64_t{1} << rest) - 1;
+  clear_padding(mask, a.lanes);
   return mask;
 }
 
@@ -192,6 +197,26 @@ Result<void> transmittance(SampledSpectraView sigma, LanesView distance, Sampled
                          k.transmittance(out.data + at, sigma.data + at, distance.data + lane,
                                          out.axis.count(), blocks);
                        });
+}
+
+Result<LaneMask> update_throughput(SampledSpectraView throughput, SampledSpectraView scattering,
+                                   LanesView density, LanesView u, SampledSpectraSpan out,
+                                   const Execution& execution) {
+  const bool roulette = u.data != nullptr;
+  if (roulette) {
+    SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes));
+    SPECTILE_TRY(shape::aligned(u.data));
+  }
+  LaneMask ended(out.blocks());
+  SPECTILE_TRY(with_lanes<2>({throughput, scattering}, density, out, execution,
+                             [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
+                               k.update_throughput(out.data + at, ended.data() + lane / kLanesPerBlock,
+                                                   throughput.data + at, scattering.data + at,
+                                                   density.data + lane, roulette ? u.data + lane : nullptr,
+                                                   out.axis.count(), blocks);
+                             }));
+  clear_padding(ended, out.lanes);
+  return ended;
 }
 
 Result<void> pow(SampledSpectraView a, float exponent, SampledSpectraSpan out, const Execution& execution) {

@@ -123,6 +123,29 @@ void mask_all(std::uint64_t* mask, std::size_t bands, std::size_t blocks, Test t
 
 }  // namespace
 
+void update_throughput(float* dst, std::uint64_t* ended, const float* a, const float* f, const float* density,
+                       const float* u, std::size_t bands, std::size_t blocks) noexcept {
+  for (std::size_t block = 0; block < blocks; ++block) {
+    ended[block] = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const float by = density[block * kLanes + lane];
+      float most = -std::numeric_limits<float>::infinity();
+      for (std::size_t band = 0; band < bands; ++band) {
+        const std::size_t at = (block * bands + band) * kLanes + lane;
+        dst[at] = a[at] * f[at];
+        most = most < dst[at] ? dst[at] : most;
+      }
+      const bool lives = u == nullptr ? !(by <= 0.0F) : by > 0.0F && u[block * kLanes + lane] * by < most;
+      const float factor = 1.0F / (u != nullptr && most < by ? most : by);
+      for (std::size_t band = 0; band < bands; ++band) {
+        const std::size_t at = (block * bands + band) * kLanes + lane;
+        dst[at] = lives ? dst[at] * factor : 0.0F;
+      }
+      if (!lives && u != nullptr) ended[block] |= std::uint64_t{1} << lane;
+    }
+  }
+}
+
 void black_mask(std::uint64_t* mask, const float* spectra, std::size_t bands, std::size_t blocks) noexcept {
   // By its bits: a denormal is not 0, whatever the processor's mode.
   mask_all(mask, bands, blocks,

@@ -27,6 +27,7 @@ SPECTILE_TWIN(ArithmeticKernels, scale_lanes);
 SPECTILE_TWIN(ArithmeticKernels, scale_bands);
 SPECTILE_TWIN(ArithmeticKernels, lerp_lanes);
 SPECTILE_TWIN(ArithmeticKernels, transmittance);
+SPECTILE_TWIN(ArithmeticKernels, update_throughput);
 SPECTILE_TWIN(ArithmeticKernels, minimum);
 SPECTILE_TWIN(ArithmeticKernels, maximum);
 SPECTILE_TWIN(ArithmeticKernels, black_mask);
