@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <spectile/color/sensor.hpp>
+#include <spectile/spectra/named_light.hpp>
 
 #include "src/color/color_matrix.hpp"
 #include "src/color/kernel_tables.hpp"
@@ -156,6 +157,11 @@ Result<Projector> Projector::emissive(const Bands& bands, Observer observer) {
 Result<Projector> Projector::reflective(const Bands& bands, const MeasuredSpectrum& light,
                                         Observer observer) {
   return of_observer(bands, &light, observer);
+}
+
+Result<Projector> Projector::reflective(const Bands& bands, const Spectrum& light, Observer observer) {
+  SPECTILE_ASSIGN(const auto table, tabulated(light));
+  return of_observer(bands, &table, observer);
 }
 
 Result<Projector> Projector::reradiating(const Bands& bands, const MeasuredSpectrum& light,

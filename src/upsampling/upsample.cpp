@@ -84,7 +84,7 @@ Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpe
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
                           StoreHint hint, const Execution& execution) {
-  const std::array<float, 9> matrix = color::to_float(xyz_to_srgb_matrix());
+  const std::array<float, 9> matrix = color::to_float(inverse(upsampler.rgb_to_xyz()));
   return run(upsampler, xyz, matrix.data(), spectra, hint, execution);
 }
 

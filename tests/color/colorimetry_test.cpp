@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <spectile/color/colorimetry.hpp>
+#include <spectile/spectra/named_spectra.hpp>
 
 #include "src/color/kernel_tables.hpp"
 #include "src/reference/oracle/oracle.hpp"
@@ -153,6 +154,21 @@ TEST(Projector, ConstantLightIsLikeEmission) {
   for (std::size_t i = 0; i < 60; ++i) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a.weights()[i][k], b.weights()[i][k], 1e-14);
   }
+}
+
+TEST(Projector, TakesALightOfAnyDistribution) {
+  const Bands bands;
+  const auto table = *Projector::reflective(bands, *illuminant("FL11"));
+  const auto named = *Projector::reflective(bands, *named_spectrum("FL11"));
+  const auto body = *Projector::reflective(bands, *BlackbodySpectrum::create(2856));
+  const auto a = *Projector::reflective(bands, *illuminant("A"));
+  for (std::size_t b = 0; b < bands.count(); ++b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(named.weights()[b][k], table.weights()[b][k]);
+      EXPECT_NEAR(body.weights()[b][k], a.weights()[b][k], 2e-5);  // illuminant A is a black body of 2856 K
+    }
+  }
+  EXPECT_FALSE(Projector::reflective(bands, Spectrum(ConstantSpectrum(0))));
 }
 
 TEST(Projector, BandsNobodySeesAreAnError) {

@@ -90,6 +90,30 @@ TEST(ExactMethods, WhiteIsThePerfectDiffuserOrTheLightItself) {
   });
 }
 
+TEST(ExactMethods, XyzReturnsUnderTheirOwnLight) {
+  const auto tried = [](const Upsampler& upsampler) {
+    const ColorLanes rgb = cube_grid(5);
+    auto xyz = *ColorLanes::create(rgb.lanes());
+    auto back = *ColorLanes::create(rgb.lanes());
+    auto spectra = *SampledSpectra::create(upsampler.bands(), rgb.lanes());
+    ASSERT_TRUE(transform(upsampler.rgb_to_xyz(), rgb, xyz));
+    ASSERT_TRUE(upsample_xyz(upsampler, xyz, spectra));
+    const UpsamplerOptions& o = upsampler.options();
+    const bool emits = upsampler.quantity() == Quantity::kIlluminant;
+    const MeasuredSpectrum light = o.light ? *o.light : *illuminant("D65");
+    const auto projector = emits ? *Projector::emissive(upsampler.bands(), o.observer)
+                                 : *Projector::reflective(upsampler.bands(), light, o.observer);
+    ASSERT_TRUE(project(projector, spectra, back));
+    for (std::size_t i = 0; i < rgb.lanes(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(back.at(i, k), xyz.at(i, k), 4e-6) << i << " " << k;
+    }
+  };
+  for_many(tried);
+  UpsamplerOptions narrow;
+  narrow.primaries = {{0.60, 0.33}, {0.31, 0.55}, {0.16, 0.10}, {0.3127, 0.3290}};
+  tried(*Upsampler::create(Method::kTetrahedral, Quantity::kReflectance, *Bands::parse("380:780:5"), narrow));
+}
+
 TEST(ExactMethods, CornersAreTheBasesThemselves) {
   const std::size_t row_of[8] = {0, 4, 5, 3, 6, 2, 1, 0};  // bit 0 red, bit 1 green, bit 2 blue
   for_many([&](const Upsampler& upsampler) {

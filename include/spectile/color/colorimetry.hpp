@@ -39,6 +39,10 @@ class Projector {
   static Result<Projector> reflective(const Bands& bands, const MeasuredSpectrum& light,
                                       Observer observer = Observer::kCie1931);
 
+  /// The same under a light of any distribution, as tabulated() has it. Errors: also those of tabulated().
+  static Result<Projector> reflective(const Bands& bands, const Spectrum& light,
+                                      Observer observer = Observer::kCie1931);
+
   /// For reflectances that also re-radiate, as fluorescent ones do: the weights of reflective(), then one for
   /// each pair of bands, for the share of the light absorbed in one that is emitted in the other: average of
   /// the light over the first * integral of the matching function over the second. A share is what the

@@ -207,8 +207,9 @@ Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpe
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraView lambda_nm,
                     SampledSpectraSpan samples, const Execution& execution = {});
 
-/// CIE XYZ to spectra, through linear sRGB with its D65 white (see xyz_to_srgb).
-/// Shapes, numbers, errors as for upsample_srgb.
+/// CIE XYZ to spectra, by way of the upsampler's own RGB: its primaries, and its white as its bands and
+/// observer see it (Upsampler::rgb_to_xyz()), so that the exact methods' spectra, projected under that light,
+/// have this XYZ. Shapes, numbers, errors as for upsample_srgb().
 Result<void> upsample_xyz(const Upsampler& upsampler, ColorView xyz, SampledSpectraSpan spectra,
                           StoreHint hint = StoreHint::kAuto, const Execution& execution = {});
 
