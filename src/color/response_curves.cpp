@@ -26,13 +26,13 @@ Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& cur
                                               const std::array<double, 3>& factors) {
   SPECTILE_ASSIGN(auto buffer, FloatBuffer::create(std::size_t{3} * 2 * kIntervals));
   for (std::size_t c = 0; c < 3; ++c) {
-    float* const pairs = buffer.data() + c * 2 * kIntervals;
-    for (std::int32_t i = 0; i < kIntervals; ++i) {
+    float* pair = buffer.data() + c * 2 * kIntervals;
+    for (std::int32_t i = 0; i < kIntervals; ++i, pair += 2) {
       const double value = factors[c] * curves[c](kFirstNm + i);
       const double next = factors[c] * curves[c](kFirstNm + i + 1);
-      pairs[2 * i] = static_cast<float>(value);
-      pairs[2 * i + 1] = static_cast<float>(next - value);
-      if (!std::isfinite(pairs[2 * i]) || !std::isfinite(pairs[2 * i + 1])) {
+      pair[0] = static_cast<float>(value);
+      pair[1] = static_cast<float>(next - value);
+      if (!std::isfinite(pair[0]) || !std::isfinite(pair[1])) {
         return make_error(ErrorCode::kBadArgument, "response curve {} is {} at {} nm", c + 1, value,
                           kFirstNm + i);
       }
