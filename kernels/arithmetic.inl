@@ -139,10 +139,12 @@ inline std::uint64_t bounce(float* dst, const float* a, const float* f, F32 dens
                             std::size_t bands) noexcept {
   const F32 zero(0.0F);
   const F32 one(1.0F);
+  const F32 least(0x1p-126F);
   if constexpr (!kRoulette) {
     const F32 factor = divide(one, density);
+    const Mask counts = density >= least;
     for (std::size_t at = 0; at < bands * kLanes; at += kLanes)
-      store(dst + at, xsimd::select(density <= zero, zero, (load(a + at) * load(f + at)) * factor));
+      store(dst + at, xsimd::select(counts, (load(a + at) * load(f + at)) * factor, zero));
     return 0;
   }
   F32 most(-__builtin_inff());
@@ -151,8 +153,9 @@ inline std::uint64_t bounce(float* dst, const float* a, const float* f, F32 dens
     most = max(product, most);  // most < product ? product : most
     store(dst + at, product);
   }
-  const Mask lives = (density > zero) & (load(u) * density < most);
-  const F32 factor = divide(one, xsimd::select(most < density, most, density));
+  const F32 by = xsimd::select(most < density, most, density);
+  const Mask lives = (by >= least) & (load(u) * density < most);
+  const F32 factor = divide(one, by);
   for (std::size_t at = 0; at < bands * kLanes; at += kLanes)
     store(dst + at, xsimd::select(lives, load(dst + at) * factor, zero));
   return ~lane_bits(lives) & ((std::uint64_t{1} << (kWidth - 1) << 1) - 1);

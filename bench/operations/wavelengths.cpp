@@ -230,7 +230,7 @@ Result<void> add_draws_of_a_light(std::vector<Operation>& to) {
   };
   // A wavelength: its number (5), its bucket (3), steps (3 each), its place (6), NaN (4).
   op.operations = 2 + kWavelengths * (5 + 3 + 3.0 * table().halvings + 6 + 4);
-  op.bottleneck = "gathers: five loads a wavelength, and one for each step of the search";
+  op.bottleneck = "gathers: four loads a wavelength, and one for each step of the search";
   op.bound = 2;
   op.run = [=](const KernelTable& k, const Arrays& a) {
     k.table_wavelengths(a.out(0), a.out(1), a.in(), table(), kWavelengths, a.blocks);

@@ -48,8 +48,8 @@ struct ArithmeticKernels {
                         std::size_t blocks) noexcept;
 
   /// A bounce and Russian roulette: p = a * f, m = largest p, NaN ignored
-  /// density > 0 and u * density < m: p * (1 / (m < density ? m : density)); else 0, and the lane's bit of
-  /// `ended`. u null: density <= 0 ? 0 : p * (1 / density), no bit
+  /// by = m < density ? m : density; by >= 2^-126 and u * density < m: p * (1 / by); else 0, and the lane's
+  /// bit of `ended`. u null: density >= 2^-126 ? p * (1 / density) : 0, no bit
   void (*update_throughput)(float* dst, std::uint64_t* ended, const float* a, const float* f,
                             const float* density, const float* u, std::size_t bands,
                             std::size_t blocks) noexcept;

@@ -1,4 +1,4 @@
-// Element-wise arithmetic over whole batches, and reductions of each lane over its bands.
+// Element-wise arithmetic over whole batches, and reductions of each lane over its samples.
 #include <array>
 #include <bit>
 #include <limits>
@@ -202,10 +202,12 @@ Result<void> transmittance(SampledSpectraView sigma, LanesView distance, Sampled
 Result<LaneMask> update_throughput(SampledSpectraView throughput, SampledSpectraView scattering,
                                    LanesView density, LanesView u, SampledSpectraSpan out,
                                    const Execution& execution) {
-  const bool roulette = u.data != nullptr;
+  const bool roulette = u.lanes != 0 || u.data != nullptr;
   if (roulette) {
     SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes));
     SPECTILE_TRY(shape::aligned(u.data));
+    if (u.data == nullptr)
+      return make_error(ErrorCode::kBadArgument, "{} random numbers are nowhere", u.lanes);
   }
   LaneMask ended(out.blocks());
   SPECTILE_TRY(with_lanes<2>({throughput, scattering}, density, out, execution,

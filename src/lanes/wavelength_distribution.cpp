@@ -36,6 +36,17 @@ Result<std::vector<double>> shares_of(std::vector<double> parts, double even_sha
   }
   double sum = 0;
   for (const double v : parts) sum += v;
+  if (!std::isfinite(sum)) {
+    return make_error(ErrorCode::kBadArgument, "the spectrum's sum from {} to {} nm is beyond double",
+                      first_nm, last_nm);
+  }
+  // A nanometre's even share is at least four steps of a float near 1, so that all are drawn.
+  const double least = 0x1p-22 * static_cast<double>(parts.size());
+  if (even_share > 0 && even_share < least) {
+    return make_error(ErrorCode::kBadArgument,
+                      "an even share of {} over {} nm is too small for float: 0, or {} and more", even_share,
+                      parts.size(), least);
+  }
   if (!(sum > 0) && even_share < 1) {
     return make_error(ErrorCode::kBadArgument, "the spectrum is nowhere above 0 from {} to {} nm", first_nm,
                       last_nm);
@@ -61,7 +72,9 @@ Result<WavelengthDistribution> WavelengthDistributionAccess::create(const std::v
   std::vector<float> starts;
   double sum = 0;
   for (const double share : shares) {
-    starts.push_back(std::min(1.0F, static_cast<float>(sum)));
+    // Shares of which float has no inverse count for nothing.
+    constexpr double kLeastStart = 0x1p-64;
+    starts.push_back(sum < kLeastStart ? 0.0F : std::min(1.0F, static_cast<float>(sum)));
     sum += share;
   }
   SPECTILE_ASSIGN(out->starts, index_knots(starts));
@@ -136,6 +149,8 @@ double WavelengthDistribution::density(double lambda_nm) const noexcept {
 
 Result<void> sample_wavelengths(const WavelengthDistribution& distribution, LanesView u,
                                 SampledWavelengths& out, const Execution& execution) {
+  SPECTILE_TRY(shape::own_wavelengths(out.axis()));
+  SPECTILE_TRY(shape::same(out.lambda_nm, out.density));
   SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
   SPECTILE_TRY(shape::aligned(u.data));
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
@@ -166,12 +181,15 @@ Result<void> wavelength_density(const WavelengthDistribution& distribution, Samp
   return {};
 }
 
-Result<void> balance_heuristic(SampledSpectraView path_density, LanesSpan weight,
-                               const Execution& execution) {
+Result<void> balance_heuristic(SampledSpectraView path_density, const SampledWavelengthsView& wavelengths,
+                               LanesSpan weight, const Execution& execution) {
   SPECTILE_TRY(shape::own_wavelengths(path_density.axis));
+  SPECTILE_TRY(shape::same(path_density, wavelengths.density));
   SPECTILE_TRY(average(path_density, weight, execution));
+  const LaneMask terminated = secondary_terminated(wavelengths);
   for (std::size_t i = 0; i < weight.lanes; ++i) {
-    const float mean = weight.data[i];
+    const bool alone = ((terminated[i / kLanesPerBlock] >> (i % kLanesPerBlock)) & 1U) != 0;
+    const float mean = alone ? path_density.at(i, 0) : weight.data[i];
     weight.data[i] = mean == 0.0F ? 0.0F : path_density.at(i, 0) / mean;
   }
   return {};

@@ -40,6 +40,7 @@ Result<SampledWavelengths> SampledWavelengths::create(std::size_t lanes, std::si
 
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
                                 double first_nm, double last_nm, const Execution& execution) {
+  SPECTILE_TRY(shape::same(out.lambda_nm, out.density));
   SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
   SPECTILE_TRY(shape::aligned(u.data));
   if (!(first_nm >= 1e-6 && last_nm - first_nm >= 1e-6 && last_nm <= 1e9)) {
@@ -69,6 +70,7 @@ Result<void> terminate_secondary(SampledWavelengths& wavelengths) {
 }
 
 Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes) {
+  SPECTILE_TRY(shape::same(wavelengths.lambda_nm, wavelengths.density));
   const SampledSpectraSpan density = wavelengths.density;
   if (lanes.size() != density.blocks()) {
     return make_error(ErrorCode::kSizeMismatch, "the mask has {} words, {} lanes have {}", lanes.size(),

@@ -135,8 +135,9 @@ void update_throughput(float* dst, std::uint64_t* ended, const float* a, const f
         dst[at] = a[at] * f[at];
         most = most < dst[at] ? dst[at] : most;
       }
-      const bool lives = u == nullptr ? !(by <= 0.0F) : by > 0.0F && u[block * kLanes + lane] * by < most;
-      const float factor = 1.0F / (u != nullptr && most < by ? most : by);
+      const float divisor = u != nullptr && most < by ? most : by;
+      const bool lives = divisor >= 0x1p-126F && (u == nullptr || u[block * kLanes + lane] * by < most);
+      const float factor = 1.0F / divisor;
       for (std::size_t band = 0; band < bands; ++band) {
         const std::size_t at = (block * bands + band) * kLanes + lane;
         dst[at] = lives ? dst[at] * factor : 0.0F;

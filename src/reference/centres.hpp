@@ -39,7 +39,7 @@ inline CentrePlace place_between(const kernels::CentreTable& centres, float lamb
                centres.intervals - 1);
   const float part = centres.knots == nullptr ? at - static_cast<float>(i)
                                               : (held - centres.knots[i]) * centres.per_width[i];
-  return {static_cast<std::size_t>(i), std::min(1.0F, part)};
+  return {static_cast<std::size_t>(i), 1.0F < part ? 1.0F : part};
 }
 
 /// Linear from a to b.

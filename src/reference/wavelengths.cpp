@@ -163,8 +163,9 @@ void table_wavelengths(float* lambda_nm, float* density, const float* u, const k
       const float* const pair = table.bins + std::ptrdiff_t{2} * bin;
       const float low = table.first_nm + static_cast<float>(bin);
       const float lambda = low + (share - table.knots[bin]) * pair[0];
+      const float end = (low + 1.0F) * (1.0F - 0x1p-24F);
       const std::size_t at = own_sample(i, k, count);
-      lambda_nm[at] = std::isnan(v) ? v : std::min((low + 1.0F) * (1.0F - 0x1p-24F), lambda);
+      lambda_nm[at] = std::isnan(v) ? v : (end < lambda ? end : lambda);
       density[at] = pair[1];
     }
   }

@@ -31,6 +31,8 @@ TEST(Results, HoldAValueOrAnError) {
   EXPECT_EQ(half_of(4).value_or(7), 2);
   EXPECT_FALSE(half_of(3).has_value());
   EXPECT_EQ(half_of(3).value_or(7), 7);
+  const Result<int> kept = half_of(4);
+  EXPECT_EQ(kept.value_or(7), 2);
   EXPECT_EQ(half_of(3).error().message, "3 is odd");
   EXPECT_TRUE(even(2).has_value());
   EXPECT_FALSE(even(3).has_value());

@@ -99,6 +99,19 @@ TEST(UpdateThroughput, PathsWithNothingLeftEnd) {
   EXPECT_EQ(*update_throughput(p.throughput, p.scattering, p.density, p.u, out), LaneMask{0b01011});
   EXPECT_EQ(out.at(1, 0), 0);
   EXPECT_TRUE(std::isnan(out.at(2, 0)));
+  // No number or next to none of a density, and of what is left.
+  p.density[2] = kNan;
+  p.density[4] = 1e-39F;
+  p.u[3] = 0;
+  p.throughput.at(3, 0) = 1e-20F;
+  p.throughput.at(3, 1) = 0;
+  p.scattering.at(3, 0) = 1e-19F;
+  EXPECT_EQ(*update_throughput(p.throughput, p.scattering, p.density, p.u, out), LaneMask{0b11111});
+  EXPECT_EQ(*update_throughput(p.throughput, p.scattering, p.density, {}, out), LaneMask{0});
+  EXPECT_EQ(out.at(2, 1), 0);
+  EXPECT_EQ(out.at(4, 0), 0);
+  EXPECT_EQ(update_throughput(p.throughput, p.scattering, p.density, {nullptr, 5}, out).error().code,
+            ErrorCode::kBadArgument);
   const auto wrong = *ScalarLanes::create(6);
   EXPECT_EQ(update_throughput(p.throughput, p.scattering, wrong, p.u, out).error().code,
             ErrorCode::kSizeMismatch);

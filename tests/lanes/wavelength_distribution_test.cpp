@@ -186,57 +186,81 @@ TEST(WavelengthDistributions, OfNothingAndOfWhatCannotBe) {
 }
 
 TEST(BalanceHeuristic, WeighsThePathThatWasMadeForTheFirst) {
-  auto density = own_batch(3, 4);
+  auto w = drawn_wavelengths(WavelengthSampling::kUniform, 4, 4, 3);
+  ASSERT_TRUE(terminate_secondary(w, LaneMask{0b1000}));
+  auto density = own_batch(4, 4);
   for (std::size_t k = 0; k < 4; ++k) density.at(0, k) = 0.25F;
   density.at(1, 0) = 6;
   density.at(1, 2) = 2;
-  auto weight = *ScalarLanes::create(3);
-  ASSERT_TRUE(balance_heuristic(density, weight));
+  density.at(3, 0) = 5;
+  auto weight = *ScalarLanes::create(4);
+  ASSERT_TRUE(balance_heuristic(density, w, weight));
   EXPECT_EQ(weight[0], 1);
   EXPECT_EQ(weight[1], 3);
   EXPECT_EQ(weight[2], 0);
-  auto other = *ScalarLanes::create(4);
-  EXPECT_FALSE(balance_heuristic(density, other));
-  EXPECT_FALSE(balance_heuristic(*SampledSpectra::create(Bands(), 3), weight));
+  EXPECT_EQ(weight[3], 1);
+  auto other = *ScalarLanes::create(5);
+  EXPECT_FALSE(balance_heuristic(density, w, other));
+  EXPECT_FALSE(balance_heuristic(own_batch(4, 3), w, weight));
+  EXPECT_FALSE(balance_heuristic(*SampledSpectra::create(Bands(), 4), w, weight));
 }
 
-/// Two ways to choose a wavelength-dependent direction, combined over the wavelengths: the mean stays.
+/// A direction x below the first wavelength, which the others may lie beyond: without the weight the estimate
+/// is too low, with it it is right.
 TEST(BalanceHeuristic, KeepsTheMeanOfAnEstimate) {
   constexpr std::size_t kMany = 100000;
   constexpr std::size_t kCount = 4;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(0, 1);
-  // For lambda in [0, 1): direction x has density 1 + (2 x - 1) lambda; integrand x lambda; integral 1/4.
+  // For lambda in (0, 1): x has the density 1 / lambda below lambda; integrand 1 there; integral 1/2.
+  const auto w = drawn_wavelengths(WavelengthSampling::kUniform, kMany, kCount, 6, 1, 2);
   auto path = own_batch(kMany, kCount);
-  std::vector<std::array<double, kCount>> lambda(kMany);
-  std::vector<double> x(kMany);
+  std::vector<double> seen(kMany);
   for (std::size_t i = 0; i < kMany; ++i) {
-    const double u = unit(random);
+    const auto lambda = [&](std::size_t k) { return static_cast<double>(w.lambda_nm.at(i, k)) - 1 + 1e-9; };
+    const double x = unit(random) * lambda(0);
     for (std::size_t k = 0; k < kCount; ++k) {
-      const double moved = u + static_cast<double>(k) / kCount;
-      lambda[i][k] = moved >= 1 ? moved - 1 : moved;
+      path.at(i, k) = x < lambda(k) ? static_cast<float>(1 / lambda(k)) : 0.0F;
+      seen[i] += x < lambda(k) ? 1.0 / kCount : 0;
     }
-    const double a = lambda[i][0];
-    const double v = unit(random);
-    x[i] = a < 1e-9 ? v : (a - 1 + std::sqrt((1 - a) * (1 - a) + 4 * a * v)) / (2 * a);
-    for (std::size_t k = 0; k < kCount; ++k)
-      path.at(i, k) = static_cast<float>(1 + (2 * x[i] - 1) * lambda[i][k]);
   }
   auto weight = *ScalarLanes::create(kMany);
-  ASSERT_TRUE(balance_heuristic(path, weight));
+  ASSERT_TRUE(balance_heuristic(path, w, weight));
   double sum = 0;
   double squares = 0;
+  double plain = 0;
   for (std::size_t i = 0; i < kMany; ++i) {
-    double mean = 0;
-    for (std::size_t k = 0; k < kCount; ++k) mean += x[i] * lambda[i][k] / kCount;
-    const double estimate = mean * static_cast<double>(weight[i]) / static_cast<double>(path.at(i, 0));
-    sum += estimate;
-    squares += estimate * estimate;
+    const double single = seen[i] / static_cast<double>(path.at(i, 0));
+    const double estimate = single * static_cast<double>(weight[i]);
+    plain += single / kMany;
+    sum += estimate / kMany;
+    squares += estimate * estimate / kMany;
   }
-  const double mean = sum / kMany;
-  const double deviation = std::sqrt((squares / kMany - mean * mean) / kMany);
-  EXPECT_NEAR(mean, 0.25, 4 * deviation);
-  EXPECT_LT(deviation, 1e-3);
+  EXPECT_NEAR(sum, 0.5, 4 * std::sqrt((squares - sum * sum) / kMany));
+  EXPECT_LT(plain, 0.45);
+}
+
+TEST(WavelengthDistributions, NumbersThatFloatLoses) {
+  // All but the middle's shares are beyond the smallest float's inverse.
+  const auto lobe = *GaussianSumSpectrum::from_lobes({{1, 600, 5, 5}});
+  const auto of = *WavelengthDistribution::proportional_to(lobe, 0);
+  auto u = *ScalarLanes::create(2);
+  u[1] = 0.75F;
+  auto w = *SampledWavelengths::create(2, 4);
+  ASSERT_TRUE(sample_wavelengths(of, u, w));
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_TRUE(std::isfinite(w.lambda_nm.at(i % 2, i / 2)));
+    EXPECT_GT(w.density.at(i % 2, i / 2), 0);
+  }
+  const auto refused = WavelengthDistribution::proportional_to(lobe, 1e-6);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("too small for float"), std::string::npos);
+  EXPECT_FALSE(WavelengthDistribution::proportional_to(ConstantSpectrum(1e307)));
+  // Densities of other lanes or another K are no room for draws.
+  w.density = own_batch(2, 3);
+  EXPECT_FALSE(sample_wavelengths(of, u, w));
+  EXPECT_FALSE(sample_wavelengths(WavelengthSampling::kUniform, u, w));
+  EXPECT_FALSE(terminate_secondary(w));
 }
 
 }  // namespace

@@ -119,6 +119,9 @@ TEST(OwnWavelengthSamples, DoNotDependOnHowTheyAreComputed) {
       auto other = own_batch(list.size(), 4);
       ASSERT_TRUE(upsample_srgb(upsampler, s.rgb, s.lambda, other, {4, 64}));
       EXPECT_TRUE(same_lanes(other, s.samples));
+      auto in_place = *s.lambda.clone();
+      ASSERT_TRUE(upsample_srgb(upsampler, s.rgb, in_place, in_place));
+      EXPECT_TRUE(same_lanes(in_place, s.samples));
       auto found = *CoefficientLanes::create(upsampler, list.size());
       ASSERT_TRUE(coefficients(upsampler, s.rgb, found));
       ASSERT_TRUE(expand(upsampler, found, s.lambda, other, {2, 64}));

@@ -70,12 +70,12 @@ Result<void> clamp(SampledSpectraView a, float lowest, float highest, SampledSpe
 Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Execution& execution = {});
 
 /// One bounce of paths: out = throughput * scattering / density, with the lane's own density of the direction
-/// (times what does not depend on wavelength, such as one over a cosine); 0 where that is not above 0. Then
-/// Russian roulette, unless `u` is empty: a path goes on with the probability q = min(1, largest sample), and
-/// its samples are divided by q; with u at or above q they become 0 and its bit of the mask is set. NaN is
-/// passed over in q; where nothing else is left the path ends. Numbers: p = throughput * scattering, m its
-/// largest: u * density < m, p * (1 / min(m, density)): relative error below 4 u where p, density and their
-/// inverses are normal numbers. Shapes: density, u [lanes].
+/// (times what does not depend on wavelength, such as one over a cosine); 0 where that is not a number of
+/// 2^-126 or more. Then Russian roulette, unless `u` is of no lanes: a path goes on with the probability q =
+/// min(1, largest sample), and its samples are divided by q; with u at or above q they become 0 and its bit
+/// of the mask is set. NaN is passed over in q; a path ends where nothing else is left, or less than 2^-126
+/// of throughput * scattering. Numbers: p = throughput * scattering, m its largest: u * density < m, p * (1 /
+/// min(m, density)): relative error below 4 u where p is a normal number. Shapes: density, u [lanes].
 Result<LaneMask> update_throughput(SampledSpectraView throughput, SampledSpectraView scattering,
                                    LanesView density, LanesView u, SampledSpectraSpan out,
                                    const Execution& execution = {});

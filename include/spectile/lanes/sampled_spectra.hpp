@@ -46,7 +46,8 @@ struct BatchView {
 using SampledSpectraView = BatchView<const float>;  ///< to read
 using SampledSpectraSpan = BatchView<float>;        ///< to write
 
-/// Owner of a batch of `lanes` sampled spectra on one axis.
+/// Owner of a batch of `lanes` sampled spectra on one axis. Converts to its views; one of a temporary is for
+/// the call only.
 class SampledSpectra {
  public:
   /// A batch with every sample zero, padding included. Errors: kOutOfMemory.
@@ -66,7 +67,7 @@ class SampledSpectra {
   const SpectralAxis& axis() const noexcept { return axis_; }
   SampledSpectraSpan span() { return {buffer_.data(), lanes_, axis_}; }
   SampledSpectraView view() const { return {buffer_.data(), lanes_, axis_}; }
-  operator SampledSpectraSpan() { return span(); }
+  operator SampledSpectraSpan() & { return span(); }
   operator SampledSpectraView() const { return view(); }
 
   /// One sample; no bounds check.
@@ -87,7 +88,7 @@ class SampledSpectra {
 struct LanesView {
   const float* data = nullptr;
   std::size_t lanes = 0;
-  operator std::span<const float>() const noexcept { return {data, lanes}; }
+  std::span<const float> values() const noexcept { return {data, lanes}; }
 };
 
 /// Writable view of one float a lane; shapes as in LanesView.
@@ -117,9 +118,8 @@ class ScalarLanes {
   static Result<ScalarLanes> create(std::size_t lanes);
   LanesSpan span() noexcept { return {buffer_.data(), lanes_}; }
   LanesView view() const noexcept { return {buffer_.data(), lanes_}; }
-  operator LanesSpan() noexcept { return span(); }
+  operator LanesSpan() & noexcept { return span(); }
   operator LanesView() const noexcept { return view(); }
-  operator std::span<const float>() const noexcept { return view(); }
   float& operator[](std::size_t i) noexcept { return buffer_.data()[i]; }
   float operator[](std::size_t i) const noexcept { return buffer_.data()[i]; }
   std::size_t lanes() const noexcept { return lanes_; }
@@ -136,7 +136,7 @@ class ColorLanes {
   static Result<ColorLanes> create(std::size_t lanes);
   ColorSpan span() noexcept;
   ColorView view() const noexcept;
-  operator ColorSpan() noexcept { return span(); }
+  operator ColorSpan() & noexcept { return span(); }
   operator ColorView() const noexcept { return view(); }
   float& at(std::size_t lane, std::size_t component) noexcept {
     return buffer_.data()[component * stride_ + lane];

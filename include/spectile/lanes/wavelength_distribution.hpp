@@ -17,7 +17,8 @@ class WavelengthDistribution {
 
   /// In proportion to a spectrum, whose integral over each nanometre counts; below 0 counts as 0.
   /// Units: nm, within 1 to 100000. Errors: kBadArgument for a range that does not ascend, a share outside 0
-  /// to 1, a spectrum that is not finite or nowhere above 0 where no share is even; kOutOfMemory.
+  /// to 1 or so small that float loses it, a spectrum that is not finite or nowhere above 0 where no share is
+  /// even; kOutOfMemory.
   static Result<WavelengthDistribution> proportional_to(const Spectrum& spectrum,
                                                         double even_share = kEvenShare,
                                                         int first_nm = static_cast<int>(kFirstVisibleNm),
@@ -56,10 +57,11 @@ Result<void> wavelength_density(const WavelengthDistribution& distribution, Samp
                                 SampledSpectraSpan density, const Execution& execution = {});
 
 /// Weight of a path that was made for the first of a lane's wavelengths and could have been for any: by the
-/// balance heuristic, its density for the first over the mean of those for all; 0 where all are 0.
-/// Shapes: path_density on the axis of the wavelengths, weight [lanes]. Errors: as average(). Source: Wilkie,
-/// Nawaz, Droske, Weidlich, Hanika, Hero Wavelength Spectral Sampling, Computer Graphics Forum 33(4), 2014.
-Result<void> balance_heuristic(SampledSpectraView path_density, LanesSpan weight,
-                               const Execution& execution = {});
+/// balance heuristic, its density for the first over the mean of those for all; 1 where the others are
+/// terminated; 0 where its density is 0. Shapes: path_density on the axis of the wavelengths, weight [lanes].
+/// Errors: as average(). Source: Wilkie, Nawaz, Droske, Weidlich, Hanika, Hero Wavelength Spectral Sampling,
+/// Computer Graphics Forum 33(4), 2014.
+Result<void> balance_heuristic(SampledSpectraView path_density, const SampledWavelengthsView& wavelengths,
+                               LanesSpan weight, const Execution& execution = {});
 
 }  // namespace spectile

@@ -40,10 +40,10 @@ enum class WavelengthSampling {
 
 /// Draws K wavelengths a lane from one random number each: u, u + 1/K, u + 2/K, ..., less 1 where that
 /// reaches 1, so that the range is covered evenly, through the inverse of the density's distribution. Shapes:
-/// u [lanes], from 0 to 1 (limited to that; NaN gives NaN). Units: nm. Errors: kSizeMismatch; kBadArgument
-/// for a range that does not ascend or is not within 1e-6 to 1e9 nm, and for kVisible one that holds less
-/// than a millionth of the density. Source of the density: Radziszewski, Boryczko, Alda, An Improved
-/// Technique for Full Spectral Rendering, Journal of WSCG 17, 2009.
+/// u [lanes], from 0 to 1 (limited to that; NaN gives NaN). Units: nm. Errors: kSizeMismatch; kBandsMismatch
+/// for densities of another K; kBadArgument for a range that does not ascend or is not within 1e-6 to 1e9 nm,
+/// and for kVisible one that holds less than a millionth of the density. Source of the density: Radziszewski,
+/// Boryczko, Alda, An Improved Technique for Full Spectral Rendering, Journal of WSCG 17, 2009.
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
                                 double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
                                 const Execution& execution = {});

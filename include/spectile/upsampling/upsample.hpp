@@ -82,7 +82,7 @@ struct SigmoidModel;
 struct GridModel;
 struct WavelengthTables;
 
-/// A method prepared for given bands, ready for the kernels. Cheap to copy: copies share their tables.
+/// A method prepared for given bands, ready for the kernels. Copies share its kernels' tables.
 ///
 /// Its RGB: primaries of the options, and RGB 1, 1, 1 is the perfect diffuser under their light, as these
 /// bands and this observer see it (for an illuminant, that light itself with luminance 1). `smits` and
@@ -196,10 +196,11 @@ Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpe
 /// Linear RGB to samples at each lane's own wavelengths, by way of no other batch: the lane's rgb_spectrum()
 /// there. For colours that the method cannot make see CoefficientLanes::unsolved.
 /// Shapes: rgb three times [lanes]; lambda_nm, such as SampledWavelengths::lambda_nm, and samples on one
-/// axis. Numbers: NaN wavelengths give NaN. Mixtures and grids as upsample_srgb(), then linear between the
-/// centres of two bands: 4 u of the larger one more, for wavelengths rounded to float; infinite samples may
-/// become NaN. Sigmoids: see coefficients() and SpectrumSampler. Units: nm. Errors: kBandsMismatch for
-/// wavelengths on bands and for other axes, kSizeMismatch, kBadArgument for samples not aligned.
+/// axis; they may be one batch. Numbers: NaN wavelengths give NaN. Mixtures and grids as upsample_srgb(),
+/// then linear between the centres of two bands: 4 u of the larger one more, for wavelengths rounded to
+/// float; infinite samples may become NaN. Sigmoids: see coefficients() and SpectrumSampler. Units: nm.
+/// Errors: kBandsMismatch for wavelengths on bands and for other axes, kSizeMismatch, kBadArgument for
+/// samples not aligned.
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraView lambda_nm,
                            SampledSpectraSpan samples, const Execution& execution = {});
 

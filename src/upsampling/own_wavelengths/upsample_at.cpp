@@ -52,14 +52,18 @@ void sample_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
     return;
   }
   // In the order of the batches on bands: the sample, times the white, times the scale.
-  kernels.sigmoids_at(out.data, sigmoids, lambda_nm.data, count, out.blocks());
+  // The white first: the samples may be written over the wavelengths.
   alignas(64) float whites[SpectralAxis::kMaxWavelengths * kLanesPerBlock];
   for (std::size_t block = 0; block < out.blocks(); ++block) {
     float* const to = out.row(block, 0);
+    const std::size_t at = block * kLanesPerBlock;
+    const float* const own[3] = {c[0] + at, c[1] + at, c[2] + at};
+    sigmoids.c = own;
     SpectrumSamplerAccess::run(*tables.white, kernels, lambda_nm.row(block, 0), whites,
                                count * kLanesPerBlock);
+    kernels.sigmoids_at(to, sigmoids, lambda_nm.row(block, 0), count, 1);
     kernels.multiply(to, to, whites, count * kLanesPerBlock);
-    kernels.scale_lanes(to, to, scale + block * kLanesPerBlock, count, 1);
+    kernels.scale_lanes(to, to, scale + at, count, 1);
   }
 }
 

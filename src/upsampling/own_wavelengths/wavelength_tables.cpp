@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/base/errors.hpp"
 #include "src/spectra/sigmoid_functions.hpp"
@@ -31,6 +32,13 @@ Result<void> set_centres(const Bands& bands, WavelengthTables& out) {
   centres.first_nm = static_cast<float>(bands[0].centre_nm);
   centres.last_nm = static_cast<float>(bands[n - 1].centre_nm);
   centres.intervals = static_cast<std::int32_t>(std::max<std::size_t>(n - 1, 1));
+  const double narrowest = 1 / static_cast<double>(std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < n; ++i) {
+    const double nm = bands[i].centre_nm;
+    const bool too_near = i > 0 && nm - bands[i - 1].centre_nm < narrowest * static_cast<double>(n);
+    if (std::isfinite(static_cast<float>(nm)) && !too_near) continue;
+    return make_error(ErrorCode::kBadArgument, "bands {} are beyond the range of float", bands.description());
+  }
   if (n == 1) return {};
   if (are_even(bands)) {
     const double range = bands[n - 1].centre_nm - bands[0].centre_nm;
