@@ -73,8 +73,8 @@ Result<WavelengthDistribution> WavelengthDistributionAccess::create(const std::v
   double sum = 0;
   for (const double share : shares) {
     // Shares of which float has no inverse count for nothing.
-    constexpr double kLeastStart = 0x1p-64;
-    starts.push_back(sum < kLeastStart ? 0.0F : std::min(1.0F, static_cast<float>(sum)));
+    constexpr double kMinStart = 0x1p-64;
+    starts.push_back(sum < kMinStart ? 0.0F : std::min(1.0F, static_cast<float>(sum)));
     sum += share;
   }
   SPECTILE_ASSIGN(out->starts, index_knots(starts));
