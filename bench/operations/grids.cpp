@@ -42,14 +42,7 @@ struct GridOracle {
   /// Three parts, each times up to 8; eight products.
   double roundings() const { return (3 * 8 + 8) * std::max(1.0, largest); }
   void operator()(const double* rgb, double* reference, double* scale) const {
-    if (!finite3(rgb)) {
-      // NaN stays NaN; infinities go through by the kernel's own order, which the
-      // reference's bits tell.
-      const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-      std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-      std::fill_n(scale, rows, std::numeric_limits<double>::max());
-      return;
-    }
+    if (oracle_of_strange(rgb, rows, reference, scale)) return;
     const NodeMixture found = node_mixture(rgb3(rgb), table.homogeneous);
     double sum = 0;
     for (const double w : found.weight) sum += std::abs(w);

@@ -182,6 +182,9 @@ bool is_chosen(const std::string& name, const std::vector<std::string>& only);
 
 /// True if three numbers are finite.
 bool finite3(const double* v);
+/// An oracle's results for three numbers that are not: NaN stays NaN, and infinities go through by the
+/// kernel's own order, which the reference's bits tell. False, and nothing done, for three finite ones.
+bool oracle_of_strange(const double* v, std::size_t results, double* reference, double* scale);
 
 /// Half a step of half at a value.
 double half_of_half_step(double value);

@@ -51,13 +51,7 @@ struct MixtureOracle {
   /// Two differences and three products, each times a basis.
   double roundings() const { return 5 * std::max(1.0, largest); }
   void operator()(const double* rgb, double* reference, double* scale) const {
-    // Infinities go through by the kernel's own order, which the reference's bits tell; NaN stays NaN.
-    if (!finite3(rgb)) {
-      const bool nan = std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]);
-      std::fill_n(reference, rows, nan ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-      std::fill_n(scale, rows, std::numeric_limits<double>::max());
-      return;
-    }
+    if (oracle_of_strange(rgb, rows, reference, scale)) return;
     const Mixture m = find_mixture(rgb);
     double sum = 0;
     for (const double w : m.weight) sum += std::abs(w);
