@@ -34,8 +34,8 @@ inline CentrePlace place_between(const CentreTable& centres, F32 lambda) noexcep
   return out;
 }
 
-/// Calls sample(lane, k, lambda) for each vector of lanes and each of their wavelengths, and keeps the
-/// result.
+/// For each vector of lanes: prepare(first lane) gives a function of the wavelength, whose results at each of
+/// the lanes' own are kept.
 template <class Prepare>
 inline void at_own_wavelengths(float* dst, const float* lambda_nm, std::size_t count, std::size_t blocks,
                                Prepare prepare) noexcept {

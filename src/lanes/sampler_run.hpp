@@ -10,9 +10,7 @@ namespace spectile {
 struct SpectrumSamplerAccess {
   /// The values at n wavelengths, a multiple of 64, in other memory.
   static void run(const SpectrumSampler& sampler, const kernels::KernelTable& kernels, const float* lambda_nm,
-                  float* values, std::size_t n) {
-    sampler.sample_run(kernels, lambda_nm, values, n);
-  }
+                  float* values, std::size_t n);
 };
 
 }  // namespace spectile

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <optional>
 #include <spectile/constants.hpp>
-#include <spectile/lanes/spectrum_sampler.hpp>
 
 #include "src/base/errors.hpp"
 #include "src/dispatch/dispatch.hpp"
 #include "src/lanes/knot_index.hpp"
+#include "src/lanes/sampler_run.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/spectra/sigmoid_functions.hpp"
@@ -237,9 +237,9 @@ Result<SpectrumSampler> SpectrumSampler::create(const Spectrum& spectrum) {
   return out;
 }
 
-void SpectrumSampler::sample_run(const KernelTable& kernels, const float* lambda_nm, float* values,
-                                 std::size_t n) const {
-  tables_->row(kernels, lambda_nm, values, n);
+void SpectrumSamplerAccess::run(const SpectrumSampler& sampler, const KernelTable& kernels,
+                                const float* lambda_nm, float* values, std::size_t n) {
+  sampler.tables_->row(kernels, lambda_nm, values, n);
 }
 
 Result<void> SpectrumSampler::sample(SampledSpectraView lambda_nm, SampledSpectraSpan values,
@@ -252,7 +252,7 @@ Result<void> SpectrumSampler::sample(SampledSpectraView lambda_nm, SampledSpectr
   const std::size_t block_floats = values.axis.count() * kLanesPerBlock;
   tiles::for_blocks(values.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * block_floats;
-    sample_run(*table, lambda_nm.data + at, values.data + at, count * block_floats);
+    tables_->row(*table, lambda_nm.data + at, values.data + at, count * block_floats);
   });
   return {};
 }

@@ -7,10 +7,6 @@
 
 namespace spectile {
 
-namespace kernels {
-struct KernelTable;
-}
-
 /// A spectrum made ready to be looked up in batches.
 ///
 /// Numbers: NaN wavelengths give NaN, infinite ones what the distribution is there. In float: tables within 4
@@ -31,8 +27,6 @@ class SpectrumSampler {
  private:
   friend struct SpectrumSamplerAccess;
   SpectrumSampler() = default;
-  void sample_run(const kernels::KernelTable& kernels, const float* lambda_nm, float* values,
-                  std::size_t n) const;
   struct Tables;
   std::shared_ptr<const Tables> tables_;
 };
