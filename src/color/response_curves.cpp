@@ -45,6 +45,7 @@ Result<ResponseCurves> ResponseCurves::create(const std::array<Spectrum, 3>& cur
 
 Result<void> project(const ResponseCurves& curves, SampledSpectraView radiance,
                      const SampledWavelengthsView& wavelengths, ColorSpan color, const Execution& execution) {
+  SPECTILE_TRY(shape::own_wavelengths(wavelengths.lambda_nm.axis));
   SPECTILE_TRY(shape::same(radiance, wavelengths.lambda_nm));
   SPECTILE_TRY(shape::same(radiance, wavelengths.density));
   SPECTILE_TRY(shape::same_lanes(radiance.lanes, color.lanes));

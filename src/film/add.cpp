@@ -305,9 +305,9 @@ Result<void> Film::add(const SamplePositions& at, SampledSpectraView radiance,
                        const SampledWavelengthsView& wavelengths, const Execution& execution) {
   SPECTILE_TRY(takes(*state_, FilmInput::kWavelengths));
   SPECTILE_TRY(positions_fit(at, radiance.lanes));
+  SPECTILE_TRY(shape::own_wavelengths(wavelengths.lambda_nm.axis));
   SPECTILE_TRY(shape::same(radiance, wavelengths.lambda_nm));
   SPECTILE_TRY(shape::same(radiance, wavelengths.density));
-  SPECTILE_TRY(takes_wavelengths(radiance.axis.count()));
   return add_batch(*state_,
                    {at.x.data(), at.y.data(), data_or_null(at.weight), rows_of(radiance),
                     rows_of(wavelengths.lambda_nm), rows_of(wavelengths.density)},

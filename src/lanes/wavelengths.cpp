@@ -40,6 +40,7 @@ Result<SampledWavelengths> SampledWavelengths::create(std::size_t lanes, std::si
 
 Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
                                 double first_nm, double last_nm, const Execution& execution) {
+  SPECTILE_TRY(shape::own_wavelengths(out.axis()));
   SPECTILE_TRY(shape::same(out.lambda_nm, out.density));
   SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
   SPECTILE_TRY(shape::aligned(u.data));

@@ -104,6 +104,8 @@ TEST(BatchesForAFilm, ThatDoNotFitAreRefused) {
   EXPECT_EQ(film.add({at, {}, {}}, own_batch(70, 4), w).error().code, ErrorCode::kSizeMismatch);
   EXPECT_EQ(film.add(positions, own_batch(70, 4)).error().code, ErrorCode::kBadArgument);
   EXPECT_TRUE(film.add(positions, own_batch(70, 4), w));
+  const auto on_bands = *SampledSpectra::create(*Bands::uniform(400, 700, 60), 70);
+  EXPECT_EQ(film.add(positions, on_bands, {on_bands, on_bands}).error().code, ErrorCode::kBandsMismatch);
 
   Film bands = *Film::create(full_film(FilmInput::kBands, SamplePlacement::kOnePixel));
   const auto other = *SampledSpectra::create(*Bands::uniform(390, 690, 60), 70);

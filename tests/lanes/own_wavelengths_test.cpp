@@ -1,5 +1,5 @@
 // One batch type: what holds of samples on bands holds of those at each lane's own wavelengths.
-#include <spectile/color/colorimetry.hpp>
+#include <spectile/color/response_curves.hpp>
 #include <spectile/lanes/arithmetic.hpp>
 #include <spectile/lanes/wavelengths.hpp>
 #include <spectile/upsampling/upsample.hpp>
@@ -98,6 +98,12 @@ TEST(OwnWavelengths, AreNotTakenForBands) {
   EXPECT_EQ(project(*Projector::emissive(four_bands()), four, color).error().code, ErrorCode::kBandsMismatch);
   const auto upsampler = *Upsampler::create(Method::kSmits, Quantity::kReflectance, four_bands());
   EXPECT_EQ(upsample_srgb(upsampler, color, four).error().code, ErrorCode::kBandsMismatch);
+  // Nor bands for wavelengths, in whichever place.
+  SampledWavelengths w = {*on_bands.clone(), *on_bands.clone()};
+  const auto u = *ScalarLanes::create(kBatch);
+  EXPECT_EQ(sample_wavelengths(WavelengthSampling::kVisible, u, w).error().code, ErrorCode::kBandsMismatch);
+  EXPECT_EQ(project(*ResponseCurves::of_observer(), on_bands, w, color).error().message,
+            "wavelengths are each lane's own, the batch has bands 400:720:80");
   EXPECT_EQ(four.axis().bands(), nullptr);
   EXPECT_EQ(*on_bands.axis().bands(), four_bands());
   EXPECT_EQ(SpectralAxis::own_wavelengths(1)->description(), "1 wavelength of each lane's own");
