@@ -3,7 +3,7 @@
 #include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/spectra/named_spectra.hpp>
 
-#include "tests/support/lanes.hpp"
+#include "tests/lanes/wavelengths_support.hpp"
 
 namespace spectile::test {
 namespace {
@@ -91,12 +91,7 @@ TEST(Projector, OfAnObserversSensorIsTheObservers) {
 TEST(Sensor, SampledWavelengthsEstimateItsResponse) {
   const auto sensor = *Sensor::named("canon-eos-5d-mkii", {1, light("D65")});
   const std::size_t lanes = 50000;
-  auto u = *ScalarLanes::create(lanes);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> unit(0, 1);
-  for (std::size_t i = 0; i < lanes; ++i) u[i] = unit(random);
-  auto wavelengths = *SampledWavelengths::create(lanes, 8);
-  ASSERT_TRUE(sample_wavelengths(WavelengthSampling::kVisible, u.view(), wavelengths));
+  const auto wavelengths = drawn_wavelengths(WavelengthSampling::kVisible, lanes, 8, 3);
   auto radiance = own_batch(lanes, 8);
   ASSERT_TRUE(sample(light("D50"), wavelengths.lambda_nm.view(), radiance.span()));
   auto rgb = *ColorLanes::create(lanes);

@@ -129,17 +129,31 @@ Estimate color_of(const Spectrum& light, const SampledWavelengths& w) {
   return out;
 }
 
+/// Wavelengths drawn in proportion to a light times a mixture of the matching functions.
+SampledWavelengths drawn_as(const Spectrum& light, const std::array<double, 3>& mixture, std::size_t lanes) {
+  const Spectrum curves[3] = {*named_spectrum("cie1931-x"), *named_spectrum("cie1931-y"),
+                              *named_spectrum("cie1931-z")};
+  std::vector<double> values;
+  for (int nm = 360; nm <= 830; ++nm) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += mixture[c] * curves[c](nm);
+    values.push_back(light(nm) * sum);
+  }
+  const auto of = *WavelengthDistribution::proportional_to(*DenselySampledSpectrum::from_values(360, values));
+  auto w = *SampledWavelengths::create(lanes, 4);
+  EXPECT_TRUE(sample_wavelengths(of, random_lanes(lanes, 8), w));
+  return w;
+}
+
 TEST(WavelengthDistributions, OfTheLightHaveLessThanHalfTheVarianceAndTheSameMean) {
   constexpr std::size_t kMany = 100000;
-  auto u = *ScalarLanes::create(kMany);
-  std::mt19937 random(8);
-  std::uniform_real_distribution<float> unit(0, 1);
-  for (std::size_t i = 0; i < kMany; ++i) u[i] = unit(random);
   auto w = *SampledWavelengths::create(kMany, 4);
+  std::printf("variance: uniform, visible, of the light, light * (x + y + z), light * y\n");
   for (const char* name : {"A", "D65", "FL2", "FL11", "HP1", "LED-B3"}) {
     const Spectrum light = *named_spectrum(name);
-    ASSERT_TRUE(sample_wavelengths(*WavelengthDistribution::of_light(light), u, w));
+    ASSERT_TRUE(sample_wavelengths(*WavelengthDistribution::of_light(light), random_lanes(kMany, 8), w));
     const Estimate aware = color_of(light, w);
+    std::printf("%s:", name);
     for (const auto sampling : {WavelengthSampling::kUniform, WavelengthSampling::kVisible}) {
       const Estimate other = color_of(light, drawn_wavelengths(sampling, kMany, 4, 7));
       const double part = sampling == WavelengthSampling::kUniform ? 0.5 : 1;
@@ -148,7 +162,11 @@ TEST(WavelengthDistributions, OfTheLightHaveLessThanHalfTheVarianceAndTheSameMea
         const double deviation = std::sqrt((aware.variance[c] + other.variance[c]) / kMany);
         EXPECT_NEAR(aware.mean[c], other.mean[c], 4.5 * deviation) << name << " " << c;
       }
+      std::printf(" %.3f,", other.noise());
     }
+    std::printf(" %.3f, %.3f, %.3f\n", aware.noise(),
+                color_of(light, drawn_as(light, {1, 1, 1}, kMany)).noise(),
+                color_of(light, drawn_as(light, {0, 1, 0}, kMany)).noise());
   }
 }
 

@@ -95,8 +95,6 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
 
 }  // namespace
 
-// Views go by value.
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpectraView lambda_nm,
                            SampledSpectraSpan samples, const Execution& execution) {
   SPECTILE_TRY(check(rgb, lambda_nm, samples));
@@ -107,7 +105,6 @@ Result<void> upsample_srgb(const Upsampler& upsampler, ColorView rgb, SampledSpe
   return {};
 }
 
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, SampledSpectraView lambda_nm,
                     SampledSpectraSpan samples, const Execution& execution) {
   const ColorView c = in.c;
