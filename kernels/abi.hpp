@@ -13,13 +13,19 @@
 #include "kernels/abi/arithmetic.hpp"
 #include "kernels/abi/color.hpp"
 #include "kernels/abi/film.hpp"
+#include "kernels/abi/texture.hpp"
 #include "kernels/abi/upsampling.hpp"
 #include "kernels/abi/wavelengths.hpp"
 
 namespace spectile::kernels {
 
 /// One instruction set's kernels.
-struct KernelTable : ArithmeticKernels, ColorKernels, UpsamplingKernels, WavelengthKernels, FilmKernels {
+struct KernelTable : ArithmeticKernels,
+                     ColorKernels,
+                     UpsamplingKernels,
+                     WavelengthKernels,
+                     FilmKernels,
+                     TextureKernels {
   const char* name = nullptr;
   int lanes = 0;  ///< float lanes of a vector register; 1 for the reference
 };
@@ -34,6 +40,7 @@ struct KernelFamilies {
   const UpsamplingKernels* upsampling;
   const WavelengthKernels* wavelengths;
   const FilmKernels* film;
+  const TextureKernels* texture;
 };
 
 }  // namespace spectile::kernels

@@ -100,6 +100,12 @@ void scale_bands(float* dst, const float* a, const float* s, std::size_t bands, 
   }
 }
 
+void multiply_add_lanes(float* dst, const float* a, const float* f, const float* c, std::size_t bands,
+                        std::size_t blocks) noexcept {
+  map_lanes(dst, bands, blocks,
+            [=](std::size_t i, std::size_t lane) { return load(a + i) * load(f + lane) + load(c + i); });
+}
+
 void lerp_lanes(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
                 std::size_t blocks) noexcept {
   const F32 one(1.0F);

@@ -39,6 +39,9 @@ struct ArithmeticKernels {
   /// a * s
   void (*scale_bands)(float* dst, const float* a, const float* s, std::size_t bands,
                       std::size_t blocks) noexcept;
+  /// (a * f) + c, two roundings
+  void (*multiply_add_lanes)(float* dst, const float* a, const float* f, const float* c, std::size_t bands,
+                             std::size_t blocks) noexcept;
   /// ((1 - t) * a) + (t * b), 1 - t rounded once
   void (*lerp_lanes)(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
                      std::size_t blocks) noexcept;

@@ -39,6 +39,15 @@ struct ColorKernels {
   void (*half_to_float)(float* dst, const std::uint16_t* src, std::size_t n) noexcept;
   /// nearest, ties to even; beyond the range infinity; NaN made quiet
   void (*float_to_half)(std::uint16_t* dst, const float* src, std::size_t n) noexcept;
+
+  // Batches from and to rows of one lane each, `count` numbers from rows + lane * stride on; any n, any
+  // alignment of rows; the last block is whole.
+  /// dst[block][k][lane] = rows[lane][k], 0 beyond the n lanes; dst not rows
+  void (*rows_to_blocks)(float* dst, const float* rows, std::size_t stride, std::size_t count,
+                         std::size_t n) noexcept;
+  /// rows[lane][k] = src[block][k][lane]; numbers of rows beyond `count` stay
+  void (*blocks_to_rows)(float* rows, std::size_t stride, const float* src, std::size_t count,
+                         std::size_t n) noexcept;
 };
 
 }  // namespace spectile::kernels

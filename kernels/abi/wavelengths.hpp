@@ -137,6 +137,9 @@ struct WavelengthKernels {
   //   held = clamp(lambda, first, last), i: its interval
   //   part = min(1, (held - first) * per_nm - i), or min(1, (held - knot[i]) * per_width[i])
   //   sample = a + part * (b - a), a and b the samples at the interval's ends
+  /// i and part of them: the interval and the part of these; lambda NaN: interval 0, part NaN
+  void (*centre_places)(std::int32_t* interval, float* part, const float* lambda_nm,
+                        const CentreTable& centres, std::size_t n) noexcept;
   /// a, b: the sample of smits_blocks
   void (*mixtures_at)(float* dst, const float* const rgb[3], const MixtureTable& table,
                       const CentreTable& centres, const float* lambda_nm, std::size_t count,

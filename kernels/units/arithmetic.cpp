@@ -24,6 +24,7 @@ constexpr ArithmeticKernels arithmetic = {
     .clamp = clamp,
     .scale_lanes = scale_lanes,
     .scale_bands = scale_bands,
+    .multiply_add_lanes = multiply_add_lanes,
     .lerp_lanes = lerp_lanes,
     .transmittance = transmittance,
     .update_throughput = update_throughput,

@@ -14,6 +14,8 @@ constexpr ColorKernels color = {
     .scan_rgb = scan_rgb,
     .half_to_float = half_to_float,
     .float_to_half = float_to_half,
+    .rows_to_blocks = rows_to_blocks,
+    .blocks_to_rows = blocks_to_rows,
 };
 
 }  // namespace spectile::kernels::SPECTILE_ISA

@@ -12,6 +12,7 @@ constexpr WavelengthKernels wavelengths = {
     .planck = planck,
     .gaussians = gaussians,
     .sigmoid_at = sigmoid_at,
+    .centre_places = centre_places,
     .mixtures_at = mixtures_at,
     .grid_at = grid_at,
     .sigmoids_at = sigmoids_at,

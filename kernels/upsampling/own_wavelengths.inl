@@ -34,6 +34,17 @@ inline CentrePlace place_between(const CentreTable& centres, F32 lambda) noexcep
   return out;
 }
 
+void centre_places(std::int32_t* interval, float* part, const float* lambda_nm, const CentreTable& centres,
+                   std::size_t n) noexcept {
+  const CentreTable c = centres;  // a copy that stores leave alone
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const F32 lambda = load(lambda_nm + i);
+    const CentrePlace place = place_between(c, lambda);
+    place.interval.store_aligned(interval + i);
+    store(part + i, or_nan(lambda, place.part));
+  }
+}
+
 /// For each vector of lanes: prepare(first lane) gives a function of the wavelength, whose results at each of
 /// the lanes' own are kept.
 template <class Prepare>

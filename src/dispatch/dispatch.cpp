@@ -58,8 +58,8 @@ bool runs_avx512() {
 template <const kernels::KernelFamilies& kFamilies>
 const KernelTable* joined() {
   static const KernelTable table = {*kFamilies.arithmetic,  *kFamilies.color, *kFamilies.upsampling,
-                                    *kFamilies.wavelengths, *kFamilies.film,  kFamilies.name,
-                                    kFamilies.lanes};
+                                    *kFamilies.wavelengths, *kFamilies.film,  *kFamilies.texture,
+                                    kFamilies.name,         kFamilies.lanes};
   return &table;
 }
 

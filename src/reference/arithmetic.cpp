@@ -71,6 +71,12 @@ void scale_bands(float* dst, const float* a, const float* s, std::size_t bands, 
   for (std::size_t i = 0; i < blocks * bands * kLanes; ++i) dst[i] = a[i] * s[i / kLanes % bands];
 }
 
+void multiply_add_lanes(float* dst, const float* a, const float* f, const float* c, std::size_t bands,
+                        std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * bands * kLanes; ++i)
+    dst[i] = a[i] * f[i / (bands * kLanes) * kLanes + i % kLanes] + c[i];
+}
+
 void lerp_lanes(float* dst, const float* a, const float* b, const float* t, std::size_t bands,
                 std::size_t blocks) noexcept {
   for (std::size_t i = 0; i < blocks * bands * kLanes; ++i) {

@@ -95,4 +95,23 @@ void gamut_clip(float* const rgb[3], const float weights[3], float lowest, float
   }
 }
 
+void rows_to_blocks(float* dst, const float* rows, std::size_t stride, std::size_t count,
+                    std::size_t n) noexcept {
+  const std::size_t blocks = (n + kLanes - 1) / kLanes;
+  for (std::size_t lane = 0; lane < blocks * kLanes; ++lane) {
+    for (std::size_t k = 0; k < count; ++k) {
+      dst[(lane / kLanes * count + k) * kLanes + lane % kLanes] = lane < n ? rows[lane * stride + k] : 0.0F;
+    }
+  }
+}
+
+void blocks_to_rows(float* rows, std::size_t stride, const float* src, std::size_t count,
+                    std::size_t n) noexcept {
+  for (std::size_t lane = 0; lane < n; ++lane) {
+    for (std::size_t k = 0; k < count; ++k) {
+      rows[lane * stride + k] = src[(lane / kLanes * count + k) * kLanes + lane % kLanes];
+    }
+  }
+}
+
 }  // namespace spectile::reference

@@ -25,6 +25,7 @@ SPECTILE_TWIN(ArithmeticKernels, pow);
 SPECTILE_TWIN(ArithmeticKernels, clamp);
 SPECTILE_TWIN(ArithmeticKernels, scale_lanes);
 SPECTILE_TWIN(ArithmeticKernels, scale_bands);
+SPECTILE_TWIN(ArithmeticKernels, multiply_add_lanes);
 SPECTILE_TWIN(ArithmeticKernels, lerp_lanes);
 SPECTILE_TWIN(ArithmeticKernels, transmittance);
 SPECTILE_TWIN(ArithmeticKernels, update_throughput);
@@ -47,6 +48,8 @@ SPECTILE_TWIN(ColorKernels, gamut_clip);
 SPECTILE_TWIN(ColorKernels, scan_rgb);
 SPECTILE_TWIN(ColorKernels, half_to_float);
 SPECTILE_TWIN(ColorKernels, float_to_half);
+SPECTILE_TWIN(ColorKernels, rows_to_blocks);
+SPECTILE_TWIN(ColorKernels, blocks_to_rows);
 
 SPECTILE_TWIN(UpsamplingKernels, smits_blocks);
 SPECTILE_TWIN(UpsamplingKernels, smits_rows_float);
@@ -68,6 +71,7 @@ SPECTILE_TWIN(WavelengthKernels, interpolate_knots);
 SPECTILE_TWIN(WavelengthKernels, planck);
 SPECTILE_TWIN(WavelengthKernels, gaussians);
 SPECTILE_TWIN(WavelengthKernels, sigmoid_at);
+SPECTILE_TWIN(WavelengthKernels, centre_places);
 SPECTILE_TWIN(WavelengthKernels, mixtures_at);
 SPECTILE_TWIN(WavelengthKernels, grid_at);
 SPECTILE_TWIN(WavelengthKernels, sigmoids_at);
@@ -85,6 +89,8 @@ SPECTILE_TWIN(FilmKernels, film_add);
 SPECTILE_TWIN(FilmKernels, film_add_hits);
 SPECTILE_TWIN(FilmKernels, film_add_moments);
 SPECTILE_TWIN(FilmKernels, film_count);
+
+SPECTILE_TWIN(TextureKernels, texture_places);
 
 #undef SPECTILE_TWIN
 

@@ -187,4 +187,14 @@ void project_wavelengths(float* const dst[3], const kernels::WavelengthBlocks& s
   }
 }
 
+void centre_places(std::int32_t* interval, float* part, const float* lambda_nm,
+                   const kernels::CentreTable& centres, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool no_number = std::isnan(lambda_nm[i]);
+    const CentrePlace place = place_between(centres, no_number ? centres.first_nm : lambda_nm[i]);
+    interval[i] = static_cast<std::int32_t>(place.interval);
+    part[i] = no_number ? lambda_nm[i] : place.part;
+  }
+}
+
 }  // namespace spectile::reference

@@ -9,7 +9,7 @@ using kernels::kLanes;
 
 // A name, a lane count and this many functions, all of them tested in the kernels*_test.cpp files: a new one
 // needs its test there before it is counted here.
-constexpr std::size_t kFunctions = 72;
+constexpr std::size_t kFunctions = 77;
 static_assert(sizeof(KernelTable) == 2 * sizeof(void*) + kFunctions * sizeof(void (*)()));
 
 using Unary = void (*KernelTable::*)(float*, const float*, std::size_t) noexcept;
@@ -149,6 +149,9 @@ TEST_P(Kernels, OneNumberALaneOrABandGivesTheReferencesBits) {
         const Floats b = arbitrary_floats(a.size(), 42);
         expect_same(a.size(), [&](const KernelTable& t, float* dst) {
           t.lerp_lanes(dst, a.data(), b.data(), other.data(), bands, blocks);
+        });
+        expect_same(a.size(), [&](const KernelTable& t, float* dst) {
+          t.multiply_add_lanes(dst, a.data(), other.data(), b.data(), bands, blocks);
         });
       }
     }
