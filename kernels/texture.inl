@@ -76,7 +76,7 @@ inline LevelPlaces places_on_level(const TextureShape& shape, F32 u, F32 v, I32 
 
 inline void store_tap(const TextureTexels& out, std::size_t at, const LevelPlaces& level, F32 x, F32 y,
                       F32 weight, Mask no_number) noexcept {
-  const Mask none = outside(x, level.width) | outside(y, level.height) | no_number;
+  const Mask none = outside(x, level.width) | outside(y, level.height) | no_number | (weight == F32(0.0F));
   const I32 column = xsimd::to_int(x);
   const I32 line = xsimd::to_int(y);
   const I32 within(kTextureTile - 1);

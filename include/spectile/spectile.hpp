@@ -21,6 +21,7 @@
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
 #include <spectile/image/spectral_texture.hpp>
+#include <spectile/image/texture_cache.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/lanes/arithmetic.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>

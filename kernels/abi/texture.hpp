@@ -54,7 +54,7 @@ struct TextureKernels {
   //   nearest, bilinear: level int(t + 0.5)
   //   trilinear: level int(t) for l = 0 and the next one for l = 1, part t - int(t)
   // tap 4 l + 2 y + x, weight (of_x * of_y) * of_l, of_x: x == 0 ? 1 - part : part, alike for y, l
-  // u or v not finite, t NaN: weight NaN, no tile; no tile: texel 0
+  // weight 0: no tile; u or v not finite, t NaN: weight NaN, no tile; no tile: texel 0
   void (*texture_places)(const TextureTexels& out, const TextureCoordinates& at, const TextureShape& shape,
                          std::size_t n) noexcept;
 };

@@ -137,13 +137,17 @@ struct WavelengthKernels {
   //   held = clamp(lambda, first, last), i: its interval
   //   part = min(1, (held - first) * per_nm - i), or min(1, (held - knot[i]) * per_width[i])
   //   sample = a + part * (b - a), a and b the samples at the interval's ends
-  /// i and part of them: the interval and the part of these; lambda NaN: interval 0, part NaN
+  /// the interval i and the part; lambda NaN: interval 0, part NaN
   void (*centre_places)(std::int32_t* interval, float* part, const float* lambda_nm,
                         const CentreTable& centres, std::size_t n) noexcept;
   /// a, b: the sample of smits_blocks
   void (*mixtures_at)(float* dst, const float* const rgb[3], const MixtureTable& table,
                       const CentreTable& centres, const float* lambda_nm, std::size_t count,
                       std::size_t blocks) noexcept;
+  /// a, b: ((w0 * white + w1 * cyan) + ...) + w6 * blue; sample < lowest ? lowest : sample, after the mixing
+  /// of weights; weights [block][8][64], the last unused
+  void (*bases_at)(float* dst, const float* weights, const MixtureTable& table, const CentreTable& centres,
+                   const float* lambda_nm, std::size_t count, std::size_t blocks) noexcept;
   /// a, b: the sample of grid_blocks; the table's nodes lie over the bands whose centres these are
   void (*grid_at)(float* dst, const GridSpectra& spectra, const CentreTable& centres, const float* lambda_nm,
                   std::size_t count, std::size_t blocks) noexcept;

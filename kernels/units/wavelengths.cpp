@@ -14,6 +14,7 @@ constexpr WavelengthKernels wavelengths = {
     .sigmoid_at = sigmoid_at,
     .centre_places = centre_places,
     .mixtures_at = mixtures_at,
+    .bases_at = bases_at,
     .grid_at = grid_at,
     .sigmoids_at = sigmoids_at,
     .even_wavelengths = even_wavelengths,

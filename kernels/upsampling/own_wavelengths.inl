@@ -81,6 +81,31 @@ void mixtures_at(float* dst, const float* const rgb[3], const MixtureTable& tabl
   });
 }
 
+void bases_at(float* dst, const float* weights, const MixtureTable& table, const CentreTable& centres,
+              const float* lambda_nm, std::size_t count, std::size_t blocks) noexcept {
+  const MixtureTable t = table;  // copies that stores leave alone
+  const CentreTable c = centres;
+  at_own_wavelengths(dst, lambda_nm, count, blocks, [&](std::size_t i) {
+    const float* const of = weights + i / kLanes * kLanes * kSmitsRow + i % kLanes;
+    return [of, &t, &c](F32 lambda) {
+      const CentrePlace place = place_between(c, lambda);
+      const I32 row = place.interval * I32(static_cast<std::int32_t>(kSmitsRow));
+      const Pair white = gather_pair(t.ends, row);
+      F32 a = load(of) * white.first;
+      F32 b = load(of) * white.second;
+      for (std::size_t k = 1; k + 1 < kSmitsRow; ++k) {
+        const Pair basis = gather_pair(t.ends, row + I32(static_cast<std::int32_t>(k)));
+        const F32 weight = load(of + k * kLanes);
+        a = a + weight * basis.first;
+        b = b + weight * basis.second;
+      }
+      a = max(F32(t.lowest), a);
+      b = max(F32(t.lowest), b);
+      return a + place.part * (b - a);
+    };
+  });
+}
+
 void grid_at(float* dst, const GridSpectra& spectra, const CentreTable& centres, const float* lambda_nm,
              std::size_t count, std::size_t blocks) noexcept {
   const GridSpectra s = spectra;  // copies that stores leave alone

@@ -74,6 +74,7 @@ const kernels::KernelTable kKernelTable = {
         .sigmoid_at = sigmoid_at,
         .centre_places = centre_places,
         .mixtures_at = mixtures_at,
+        .bases_at = bases_at,
         .grid_at = grid_at,
         .sigmoids_at = sigmoids_at,
         .even_wavelengths = even_wavelengths,

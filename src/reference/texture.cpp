@@ -74,10 +74,11 @@ void store_taps(const TextureTexels& out, std::size_t at, std::size_t n, const T
     const std::int32_t column = x.texel[tap % 2];
     const std::int32_t line = y.texel[tap / 2];
     constexpr std::int32_t kSide = kernels::kTextureTile;
-    const bool none = column < 0 || line < 0;
+    const float weight = nearest ? 1.0F : (x_weight[tap % 2] * y_weight[tap / 2]) * share;
+    const bool none = column < 0 || line < 0 || weight == 0;
     out.tile[at] = none ? -1 : level[3] + line / kSide * level[2] + column / kSide;
     out.texel[at] = none ? 0 : line % kSide * kSide + column % kSide;
-    out.weight[at] = nearest ? 1.0F : (x_weight[tap % 2] * y_weight[tap / 2]) * share;
+    out.weight[at] = weight;
   }
 }
 

@@ -73,6 +73,7 @@ SPECTILE_TWIN(WavelengthKernels, gaussians);
 SPECTILE_TWIN(WavelengthKernels, sigmoid_at);
 SPECTILE_TWIN(WavelengthKernels, centre_places);
 SPECTILE_TWIN(WavelengthKernels, mixtures_at);
+SPECTILE_TWIN(WavelengthKernels, bases_at);
 SPECTILE_TWIN(WavelengthKernels, grid_at);
 SPECTILE_TWIN(WavelengthKernels, sigmoids_at);
 SPECTILE_TWIN(WavelengthKernels, even_wavelengths);

@@ -140,4 +140,24 @@ void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampl
   kernels.sigmoid_blocks(spectra, {c, scale, table.rows, bands, white, table.form}, blocks, non_temporal);
 }
 
+void basis_weights(const float* const rgb[3], std::size_t n, float* const* out) {
+  for (std::size_t x = 0; x < n; ++x) {
+    const float r = rgb[0][x];
+    const float g = rgb[1][x];
+    const float b = rgb[2][x];
+    const float least = std::min(r, std::min(g, b));
+    const float greatest = std::max(r, std::max(g, b));
+    const float middle = std::max(std::min(r, g), std::min(std::max(r, g), b));
+    const float second = middle - least;
+    const float first = greatest - middle;
+    out[0][x] = least;
+    out[1][x] = r == least ? second : 0.0F;
+    out[2][x] = g == least ? second : 0.0F;
+    out[3][x] = b == least ? second : 0.0F;
+    out[4][x] = r == greatest ? first : 0.0F;
+    out[5][x] = g == greatest ? first : 0.0F;
+    out[6][x] = b == greatest ? first : 0.0F;
+  }
+}
+
 }  // namespace spectile::rows

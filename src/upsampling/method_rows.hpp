@@ -87,6 +87,10 @@ bool covers_unit_cube(const Upsampler& upsampler);
 void expand_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
                    const float* scale, float* spectra, std::size_t blocks, bool non_temporal);
 
+/// Weights of white, cyan, magenta, yellow, red, green, blue, of methods that mix these: see smits_blocks in
+/// kernels/abi. Where two components are the same the weight that either could have is 0.
+void basis_weights(const float* const rgb[3], std::size_t n, float* const* out);
+
 /// gamut_clip() on a row of `n` lanes, padded to a multiple of 64 with zeros. `lanes_outside` [n], where
 /// asked for, becomes 1 for each of them that is, else 0.
 GamutReport gamut_clip(const kernels::KernelTable& kernels, const Upsampler& upsampler, float* const rgb[3],

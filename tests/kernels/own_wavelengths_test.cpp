@@ -104,6 +104,24 @@ TEST_P(OwnWavelengthKernels, MixturesAreTheReferences) {
   }
 }
 
+TEST_P(OwnWavelengthKernels, MixedWeightsAreTheReferences) {
+  Floats weights = plain_floats(kOwnLanes * kSmitsRow, 7, -0.25F, 1.5F);
+  const Floats strange = arbitrary_floats(weights.size(), 8);
+  for (std::size_t i = 0; i < weights.size(); i += 61) weights[i] = strange[i];
+  for (const Centres& centres : all_centres()) {
+    const Floats lambda = own_wavelengths(centres, 9);
+    const Floats ends = plain_floats(2 * kSmitsRow * centres.nm.size(), 10, -0.1F, 1.0F);
+    for (const float lowest : {0.0F, -kInf}) {
+      expect_same(
+          [&](const auto& t, float* out) {
+            t.bases_at(out, weights.data(), {ends.data(), lowest}, centres.table, lambda.data(), kOwnCount,
+                       kOwnBlocks);
+          },
+          "weights");
+    }
+  }
+}
+
 TEST_P(OwnWavelengthKernels, GridsAreTheReferences) {
   const Floats rgb = colors(11);
   const Floats scale = plain_floats(kOwnLanes, 12, 0, 4);

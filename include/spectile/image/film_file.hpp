@@ -33,8 +33,8 @@ struct LoadedFilm {
   bool has_checksum = true;  ///< false for a file of a version that saved none: nothing proves it whole
 };
 
-/// Errors: kBadFile for what is no partial film, is damaged (also by its checksum), or of a version that is not known;
-/// kNoPermission; kOutOfMemory; kCancelled where `progress` says so.
+/// Errors: kBadFile for what is no partial film, is damaged (also by its checksum), or of a version that is
+/// not known; kNoPermission; kOutOfMemory; kCancelled where `progress` says so.
 Result<LoadedFilm> load_film(const std::string& path, int threads = 0, const ProgressFunction& progress = {});
 
 /// Writes a developed layer as an image, its data window the crop's: R, G, B, or X, Y, Z, or Y, or the

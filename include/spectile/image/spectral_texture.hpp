@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <spectile/image/texture_cache.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/pixel_window.hpp>
 #include <spectile/result.hpp>
@@ -13,6 +15,38 @@
 #include <string>
 
 namespace spectile {
+
+/// What lies beyond a texture's edges.
+enum class TextureWrap { kRepeat, kMirror, kClamp, kBlack };
+
+/// How a lane's sample is made of texels.
+enum class TextureFilter {
+  kNearest,    ///< the texel that holds the point, of the nearest mip level
+  kBilinear,   ///< the four around it, of the nearest mip level
+  kTrilinear,  ///< these of the two mip levels around the lane's own
+};
+
+struct TextureLookup {
+  TextureFilter filter = TextureFilter::kTrilinear;
+  TextureWrap wrap_u = TextureWrap::kRepeat;
+  TextureWrap wrap_v = TextureWrap::kRepeat;
+};
+
+/// Where lanes look a texture up: 0 to 1 is its width, from the left, and its height, from the top; a point
+/// of float has 24 bits, a 256th of a texel in a width of 65536. At most one of the last two is given: the
+/// mip level, or the footprint, the side of a square in parts of the texture's larger side, whose level is
+/// log2 of its texels at powers of two and linear between. Level 0 where neither is.
+struct TexturePoints {
+  LanesView u = {};
+  LanesView v = {};
+  LanesView level = {};
+  LanesView footprint = {};
+};
+
+struct TextureOptions {
+  int threads = 0;                         ///< that decode and compute; 0: every core
+  std::optional<TextureCache> cache = {};  ///< shared with other textures; its own where none
+};
 
 /// An open spectral image to look samples up in: a full one, with a channel for each band, or a compact one
 /// of a method's coefficients. Cheap to copy; copies share the file. May be used from several threads at
@@ -23,6 +57,7 @@ class SpectralTexture {
   /// reflectances. `threads` decode and compute; 0: every core that the process may use.
   /// Errors: kBadFile, kNoPermission; as for project_image() and expand_image().
   static Result<SpectralTexture> open(const std::string& path, int threads = 0);
+  static Result<SpectralTexture> open(const std::string& path, const TextureOptions& options);
 
   int width() const noexcept;
   int height() const noexcept;
@@ -60,7 +95,32 @@ class SpectralTexture {
   /// than the region's pixels; kBadArgument for samples not aligned.
   Result<void> evaluate(const PixelWindow& region, SampledSpectraSpan spectra) const;
 
-  /// Samples taken from the file so far, by all copies: lines times the image's width times channels.
+  /// Filtered samples at each lane's own wavelengths. Filtered are spectra: the sample is the weighted mean
+  /// of the texels' samples. Numbers that spectra are linear in are filtered themselves: samples of full
+  /// images, the RGB of `mallett`, the weights of the basis spectra of the `smits` methods (samples below 0
+  /// are then clamped after filtering). The coefficients of sigmoids and of `tetrahedral` are not: texels are
+  /// evaluated first. Wavelengths as in evaluate(), but for rounding to float. Tiles of 64 x 64 texels come
+  /// from the cache. A miss reads the file, whose other readers wait. Shapes: points, lambda_nm and samples
+  /// of the same lanes; lambda_nm and samples on one axis; they may be one batch. Units: nm; the image's own.
+  /// Numbers: u, v not finite, or a level or footprint NaN, gives NaN. Texels of weight 0 do not count. Each
+  /// product and sum of the filter rounds once: within 10 u of the largest texel's sample. Errors:
+  /// kBandsMismatch, kSizeMismatch; kBadArgument for level and footprint both, and for samples not aligned;
+  /// kBadFile for a damaged file, one that was changed, and one whose data window is not its display window,
+  /// of which 0 to 1 could be either; kOutOfMemory.
+  Result<void> sample(const TexturePoints& at, SampledSpectraView lambda_nm, SampledSpectraSpan samples,
+                      const TextureLookup& lookup = {}, const Execution& execution = {}) const;
+  /// The same at the centres of a batch's bands.
+  Result<void> sample(const TexturePoints& at, SampledSpectraSpan samples, const TextureLookup& lookup = {},
+                      const Execution& execution = {}) const;
+
+  /// Mip levels that sample() has: 1 where the file has none. Errors: kBadFile.
+  Result<int> levels() const;
+
+  /// Of the cache that it uses.
+  TextureCacheStats cache_stats() const;
+
+  /// Samples taken from the file by evaluate() so far, by all copies: lines times the image's width times
+  /// channels.
   std::uint64_t samples_read() const noexcept;
 
  private:

@@ -186,11 +186,23 @@ Result<void> ExrInput::read(int part, const Imf::FrameBuffer& target, int y0, in
   });
 }
 
-Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row) {
+Result<std::vector<LevelSize>> ExrInput::levels(int part) {
+  const PartHeader& h = header(part);
+  std::vector<LevelSize> out = {{h.width(), h.height()}};
+  if (!h.tiles() || !h.tiles()->has_levels) return out;
+  SPECTILE_TRY(guarded_read(path_, [&] {
+    const Imf::TiledInputPart input(*file_, part);
+    for (int level = 1; level < std::min(input.numXLevels(), input.numYLevels()); ++level)
+      out.push_back({input.levelWidth(level), input.levelHeight(level)});
+  }));
+  return out;
+}
+
+Result<void> ExrInput::read_tiles(int part, const Imf::FrameBuffer& target, const TileRange& tiles) {
   return read_samples(path_, [&] {
     Imf::TiledInputPart input(*file_, part);
     input.setFrameBuffer(target);
-    input.readTiles(x0, x1, row, row);
+    input.readTiles(tiles.x0, tiles.x1, tiles.y0, tiles.y1, tiles.level, tiles.level);
   });
 }
 

@@ -44,9 +44,17 @@ class ExrInput {
   /// Reads lines y0 to y1, both included, of a part into the frame buffer. Errors: kBadFile.
   Result<void> read(int part, const Imf::FrameBuffer& target, int y0, int y1);
 
-  /// Reads tiles x0 to x1, both included, of a row of tiles of a tiled part at full size. A part may be read
-  /// by read() or by this, not by both. Errors: kBadFile.
-  Result<void> read_tiles(int part, const Imf::FrameBuffer& target, int x0, int x1, int row);
+  /// Sizes of a part's mip levels, the image first. Errors: kBadFile.
+  Result<std::vector<LevelSize>> levels(int part);
+
+  /// Tiles of one level, all bounds included.
+  struct TileRange {
+    int x0, x1;
+    int y0, y1;
+    int level = 0;
+  };
+  /// Reads tiles of a tiled part. A part may be read by read() or by this, not by both. Errors: kBadFile.
+  Result<void> read_tiles(int part, const Imf::FrameBuffer& target, const TileRange& tiles);
 
   /// Reads what comes last of a part, which a file that was cut short lacks: the last line, or the last tile
   /// of the smallest level. Errors: kBadFile.

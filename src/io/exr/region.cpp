@@ -80,7 +80,7 @@ Result<void> RegionReader::load(const std::vector<PlaneSpec>& planes, int slab, 
   slab_->first_line = first;
   Imf::FrameBuffer target;
   add_slices(target, planes, file.x0 + first_column_, file.y0 + first, columns_, *slab_);
-  SPECTILE_TRY(tiled ? input_->read_tiles(part_, target, first_tile_, last_tile_, slab)
+  SPECTILE_TRY(tiled ? input_->read_tiles(part_, target, {first_tile_, last_tile_, slab, slab})
                      : input_->read(part_, target, file.y0 + first, file.y0 + last));
   loaded_ = slab;
   return {};

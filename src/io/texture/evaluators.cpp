@@ -7,11 +7,8 @@
 #include <limits>
 
 namespace spectile::io {
-namespace {
-
-/// The piece's samples of a plane as floats, at a multiple of 64 bytes; zeros up to a whole block.
-void load(const kernels::KernelTable& kernels, const Piece& piece, std::size_t plane, SampleType type,
-          float* to) {
+void load_plane(const kernels::KernelTable& kernels, const Piece& piece, std::size_t plane, SampleType type,
+                float* to) {
   const std::byte* const row = piece.strip.row(plane, piece.line);
   if (type == SampleType::kHalf) {
     alignas(64) std::uint16_t halves[kLanesPerBlock] = {};
@@ -23,15 +20,13 @@ void load(const kernels::KernelTable& kernels, const Piece& piece, std::size_t p
   std::fill(to + piece.n, to + kLanesPerBlock, 0.0F);
 }
 
-}  // namespace
-
 void CompactEvaluator::piece(const kernels::KernelTable& kernels, const Piece& piece,
                              void* const* out) const {
   alignas(64) float rows[4][kLanesPerBlock] = {};
   bool bad[kLanesPerBlock] = {};
   bool any_bad = false;
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    load(kernels, piece, k, SampleType::kFloat, rows[k]);
+    load_plane(kernels, piece, k, SampleType::kFloat, rows[k]);
     for (std::size_t i = 0; i < piece.n; ++i) {
       bad[i] = bad[i] || !(std::fabs(rows[k][i]) <= rows_.limits()[k]);
       any_bad = any_bad || bad[i];
@@ -82,7 +77,7 @@ void FullEvaluator::piece(const kernels::KernelTable& kernels, const Piece& piec
   std::size_t held[2] = {planes_.size(), planes_.size()};
   const auto hold = [&](std::size_t plane) -> const float* {
     const std::size_t slot = plane % 2;
-    if (held[slot] != plane) load(kernels, piece, plane, planes_[plane].type, samples[slot]);
+    if (held[slot] != plane) load_plane(kernels, piece, plane, planes_[plane].type, samples[slot]);
     held[slot] = plane;
     return samples[slot];
   };

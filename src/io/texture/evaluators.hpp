@@ -19,6 +19,10 @@ struct Piece {
   std::size_t n;
 };
 
+/// The piece's samples of a plane as floats, at a multiple of 64 bytes; zeros up to a whole block.
+void load_plane(const kernels::KernelTable& kernels, const Piece& piece, std::size_t plane, SampleType type,
+                float* to);
+
 /// How the samples asked for come from the planes of a strip.
 class Evaluator {
  public:

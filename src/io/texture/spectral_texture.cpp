@@ -1,26 +1,14 @@
-// SpectralTexture: the spectra of a part of an image at the wavelengths asked for, whichever way they are
-// stored.
-
+// SpectralTexture: the spectra of a part of an image, or of points on it, at the wavelengths asked for,
+// whichever way they are stored.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <spectile/image/spectral_texture.hpp>
 
 #include "src/base/errors.hpp"
-#include "src/dispatch/dispatch.hpp"
-#include "src/io/channels/plan_attribute.hpp"
 #include "src/io/convert/frame/output.hpp"
-#include "src/io/convert/sources/coefficient_source.hpp"
-#include "src/io/convert/sources/spectral_source.hpp"
-#include "src/io/texture/evaluators.hpp"
-#include "src/lanes/shape.hpp"
-#include "src/lanes/tiles.hpp"
+#include "src/io/texture/texture_image.hpp"
 
 namespace spectile {
 namespace {
-
-using io::Strip;
 
 Result<void> check_region(const PixelWindow& r, int width, int height) {
   if (!r.empty() && r.x0 >= 0 && r.y0 >= 0 && r.x1 <= width && r.y1 <= height) return {};
@@ -55,153 +43,15 @@ Result<Bands> bands_at(std::span<const double> wavelengths_nm) {
   return Bands::from_list(std::move(list));
 }
 
-/// A line of any length into the batch from `lane` on, cut where the batch's blocks end.
-void evaluate_line(const kernels::KernelTable& kernels, const io::Evaluator& evaluator, const io::Piece& line,
-                   std::size_t lane, const SampledSpectraSpan& spectra) {
-  const std::size_t bands = spectra.axis.count();
-  void* out[Bands::kMaxBands];
-  for (std::size_t at = 0; at < line.n;) {
-    const std::size_t within = (lane + at) % kLanesPerBlock;
-    const std::size_t n = std::min(kLanesPerBlock - within, line.n - at);
-    float* const block = spectra.data + (lane + at - within) * bands;
-    for (std::size_t b = 0; b < bands; ++b) out[b] = block + b * kLanesPerBlock + within;
-    evaluator.piece(kernels, {line.strip, line.line, line.x + at, n}, out);
-    at += n;
-  }
-}
-
 }  // namespace
 
-/// The state that copies of a texture share.
-class SpectralTexture::Image {
- public:
-  static Result<std::shared_ptr<Image>> open(const std::string& path, int threads);
-
-  int width() const { return file().header(part_).width(); }
-  int height() const { return file().header(part_).height(); }
-  Quantity quantity() const { return source_ ? source_->upsampler().quantity() : quantity_; }
-  const Bands& bands() const { return source_ ? source_->upsampler().bands() : bands_; }
-  bool compact() const { return source_ != nullptr; }
-  const std::string& path() const { return file().path(); }
-  std::uint64_t samples_read() const { return samples_read_; }
-
-  Result<void> evaluate(const PixelWindow& region, SampledSpectraSpan spectra);
-
- private:
-  Result<void> choose_channels(const io::SpectralSet& set);
-  Result<std::unique_ptr<io::Evaluator>> evaluator_for(const Bands& bands) const;
-  Result<void> read(const std::vector<io::PlaneSpec>& planes, Strip& strip);
-  io::ExrInput& file() const { return source_ ? source_->input() : *input_; }
-
-  std::unique_ptr<io::CoefficientSource> source_;  // of a compact image
-  std::unique_ptr<io::ExrInput> input_;            // of a full one
-  std::mutex reading_;
-  std::atomic<std::uint64_t> samples_read_ = 0;
-  int part_ = 0;
-  int threads_ = 0;
-  Quantity quantity_ = Quantity::kReflectance;
-  Bands bands_;
-  std::vector<io::PlaneSpec> channels_;  // of all bands
-};
-
-Result<std::shared_ptr<SpectralTexture::Image>> SpectralTexture::Image::open(const std::string& path,
-                                                                             int threads) {
-  auto image = std::make_shared<Image>();
-  image->threads_ = tiles::thread_count(threads);
-  SPECTILE_ASSIGN(auto input, io::ExrInput::open(path, image->threads_));
-  for (int part = 0; part < input->parts(); ++part) {
-    if (input->header(part).deep()) continue;
-    image->part_ = part;
-    if (io::claims_coefficients(input->header(part))) {
-      SPECTILE_ASSIGN(image->source_, io::CoefficientSource::open(std::move(input)));
-      return image;
-    }
-  }
-  std::vector<std::string> notes;
-  SPECTILE_ASSIGN(const auto set, io::choose_spectra(*input, {}, std::nullopt, notes));
-  if (set) {
-    image->part_ = set->part;
-    image->input_ = std::move(input);
-    SPECTILE_TRY(image->choose_channels(*set));
-    return image;
-  }
-  return make_error(ErrorCode::kBadFile,
-                    "{}: has neither spectral channels (T.*nm, S0.*nm) nor coefficients (spectile.c0, ...)",
-                    path);
-}
-
-Result<void> SpectralTexture::Image::choose_channels(const io::SpectralSet& set) {
-  if (!set.reradiating.empty()) {
-    return make_error(ErrorCode::kBadFile,
-                      "{}: re-radiates (channels of two wavelengths); a texture only reflects", path());
-  }
-  quantity_ = set.quantity;
-  SPECTILE_ASSIGN(bands_, set.bands(input_->header(part_), path()));
-  SPECTILE_ASSIGN(channels_, io::band_planes(input_->header(part_), set, path()));
-  return {};
-}
-
-Result<std::unique_ptr<io::Evaluator>> SpectralTexture::Image::evaluator_for(const Bands& bands) const {
-  std::vector<double> centres;
-  for (const Band& band : bands.list()) centres.push_back(band.centre_nm);
-  if (!source_)
-    return std::unique_ptr<io::Evaluator>(std::make_unique<io::FullEvaluator>(bands_, channels_, centres));
-  SPECTILE_ASSIGN(auto rows, rows::SampledRows::at(source_->upsampler(), centres));
-  auto planes = source_->planes();
-  planes.resize(source_->coefficients());
-  return std::unique_ptr<io::Evaluator>(
-      std::make_unique<io::CompactEvaluator>(std::move(rows), std::move(planes)));
-}
-
-Result<void> SpectralTexture::Image::read(const std::vector<io::PlaneSpec>& planes, Strip& strip) {
-  const std::scoped_lock lock(reading_);
-  SPECTILE_TRY(io::fill_strip(file(), part_, planes, strip));
-  samples_read_ +=
-      static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(strip.lines) * planes.size();
-  return {};
-}
-
-Result<void> SpectralTexture::Image::evaluate(const PixelWindow& region, SampledSpectraSpan spectra) {
-  SPECTILE_TRY(check_region(region, width(), height()));
-  const auto w = static_cast<std::size_t>(region.width());
-  SPECTILE_TRY(shape::same_lanes(w * static_cast<std::size_t>(region.height()), spectra.lanes));
-  SPECTILE_TRY(shape::aligned(spectra.data));
-  SPECTILE_ASSIGN(const auto kernels, dispatch::active());
-  if (spectra.axis.bands() == nullptr) {
-    return make_error(ErrorCode::kBandsMismatch, "a region is evaluated on bands, the batch has {}",
-                      spectra.axis.description());
-  }
-  SPECTILE_ASSIGN(const auto evaluator, evaluator_for(*spectra.axis.bands()));
-  const std::vector<io::PlaneSpec>& planes = evaluator->planes();
-  const std::size_t bands = spectra.axis.count();
-  const int step = io::strip_lines(file().header(part_), planes, 1);
-  for (int done = 0; done < region.height(); done += step) {
-    const int first = region.y0 + done;
-    const int lines = std::min(step, region.height() - done);
-    SPECTILE_ASSIGN(auto strip, io::make_strip(planes, width(), first, lines));
-    SPECTILE_TRY(read(planes, *strip));
-    // Lines write different lanes. Some thousands of pixels are worth a thread's while.
-    const Execution execution = {threads_, kLanesPerBlock * std::max<std::size_t>(1, 4096 / w)};
-    tiles::for_blocks(static_cast<std::size_t>(lines), execution, [&](std::size_t begin, std::size_t count) {
-      for (std::size_t line = begin; line < begin + count; ++line) {
-        const io::Piece piece = {*strip, first + static_cast<int>(line), static_cast<std::size_t>(region.x0),
-                                 w};
-        evaluate_line(*kernels, *evaluator, piece, (static_cast<std::size_t>(done) + line) * w, spectra);
-      }
-    });
-  }
-  // The last block's padding is defined too.
-  const std::size_t rest = spectra.lanes % kLanesPerBlock;
-  for (std::size_t b = 0; b < bands && rest != 0; ++b) {
-    float* const row = spectra.data + ((spectra.lanes - rest) * bands + b * kLanesPerBlock);
-    std::fill(row + rest, row + kLanesPerBlock, 0.0F);
-  }
-  return {};
-}
-
 Result<SpectralTexture> SpectralTexture::open(const std::string& path, int threads) {
+  return open(path, TextureOptions{.threads = threads});
+}
+
+Result<SpectralTexture> SpectralTexture::open(const std::string& path, const TextureOptions& options) {
   return io::contained<SpectralTexture>(path, [&]() -> Result<SpectralTexture> {
-    SPECTILE_ASSIGN(auto image, Image::open(path, threads));
+    SPECTILE_ASSIGN(auto image, Image::open(path, options));
     return SpectralTexture(std::move(image));
   });
 }
@@ -244,7 +94,34 @@ Result<SampledSpectra> SpectralTexture::evaluate(const PixelWindow& region,
 }
 
 Result<void> SpectralTexture::evaluate(const PixelWindow& region, SampledSpectraSpan spectra) const {
-  return io::contained<void>(image_->path(), [&] { return image_->evaluate(region, spectra); });
+  return io::contained<void>(image_->path(), [&]() -> Result<void> {
+    SPECTILE_TRY(check_region(region, width(), height()));
+    return image_->evaluate(region, spectra);
+  });
+}
+
+Result<void> SpectralTexture::sample(const TexturePoints& at, SampledSpectraView lambda_nm,
+                                     SampledSpectraSpan samples, const TextureLookup& lookup,
+                                     const Execution& execution) const {
+  return io::contained<void>(image_->path(),
+                             [&] { return image_->sample(at, &lambda_nm, samples, lookup, execution); });
+}
+
+Result<void> SpectralTexture::sample(const TexturePoints& at, SampledSpectraSpan samples,
+                                     const TextureLookup& lookup, const Execution& execution) const {
+  return io::contained<void>(image_->path(),
+                             [&] { return image_->sample(at, nullptr, samples, lookup, execution); });
+}
+
+Result<int> SpectralTexture::levels() const {
+  return io::contained<int>(image_->path(), [&]() -> Result<int> {
+    SPECTILE_ASSIGN(const io::TextureTiles* const tiles, image_->tiles());
+    return static_cast<int>(tiles->levels().size() / kernels::kTextureLevelRow);
+  });
+}
+
+TextureCacheStats SpectralTexture::cache_stats() const {
+  return image_->cache().stats();
 }
 
 }  // namespace spectile

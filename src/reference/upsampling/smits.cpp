@@ -85,4 +85,26 @@ void mixtures_at(float* dst, const float* const rgb[3], const kernels::MixtureTa
   }
 }
 
+void bases_at(float* dst, const float* weights, const kernels::MixtureTable& table,
+              const kernels::CentreTable& centres, const float* lambda_nm, std::size_t count,
+              std::size_t blocks) noexcept {
+  for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = own_sample(i, k, count);
+      dst[at] = lambda_nm[at];
+      if (std::isnan(lambda_nm[at])) continue;
+      const CentrePlace where = place_between(centres, lambda_nm[at]);
+      float ends[2];
+      for (std::size_t end = 0; end < 2; ++end) {
+        const float* const row = table.ends + 2 * where.interval * kSmitsRow + end;
+        float sample = weights[own_sample(i, 0, kSmitsRow)] * row[0];
+        for (std::size_t b = 1; b + 1 < kSmitsRow; ++b)
+          sample = sample + weights[own_sample(i, b, kSmitsRow)] * row[2 * b];
+        ends[end] = sample < table.lowest ? table.lowest : sample;
+      }
+      dst[at] = between(ends[0], ends[1], where.part);
+    }
+  }
+}
+
 }  // namespace spectile::reference

@@ -2,11 +2,10 @@
 #include <algorithm>
 
 #include "src/dispatch/dispatch.hpp"
-#include "src/lanes/sampler_run.hpp"
 #include "src/lanes/shape.hpp"
 #include "src/lanes/tiles.hpp"
 #include "src/upsampling/method_rows.hpp"
-#include "src/upsampling/own_wavelengths/wavelength_tables.hpp"
+#include "src/upsampling/own_wavelengths/samples_at.hpp"
 
 namespace spectile {
 namespace {
@@ -27,44 +26,6 @@ Result<void> check(const ColorView& in, const SampledSpectraView& lambda_nm, con
   SPECTILE_TRY(shape::aligned(lambda_nm.data));
   SPECTILE_TRY(shape::aligned(out.data));
   return shape::aligned(in);
-}
-
-/// Samples of lanes with these coefficients.
-void sample_blocks(const kernels::KernelTable& kernels, const Upsampler& upsampler, const float* const c[3],
-                   const float* scale, const SampledSpectraView& lambda_nm, const SampledSpectraSpan& out) {
-  const WavelengthTables& tables = UpsamplerAccess::at_wavelengths(upsampler);
-  const std::size_t count = out.axis.count();
-  if (rows::mixes_bases(upsampler)) {
-    kernels.mixtures_at(out.data, c, {tables.ends.data(), upsampler.lowest()}, tables.centres, lambda_nm.data,
-                        count, out.blocks());
-    return;
-  }
-  if (rows::stores_rgb(upsampler)) {
-    kernels.grid_at(out.data, rows::grid_spectra(upsampler, c, scale), tables.centres, lambda_nm.data, count,
-                    out.blocks());
-    return;
-  }
-  kernels::SigmoidLanes sigmoids = tables.sigmoid;
-  sigmoids.c = c;
-  if (!tables.white) {
-    sigmoids.scale = scale;
-    kernels.sigmoids_at(out.data, sigmoids, lambda_nm.data, count, out.blocks());
-    return;
-  }
-  // In the order of the batches on bands: the sample, times the white, times the scale.
-  // The white first: the samples may be written over the wavelengths.
-  alignas(64) float whites[SpectralAxis::kMaxWavelengths * kLanesPerBlock];
-  for (std::size_t block = 0; block < out.blocks(); ++block) {
-    float* const to = out.row(block, 0);
-    const std::size_t at = block * kLanesPerBlock;
-    const float* const own[3] = {c[0] + at, c[1] + at, c[2] + at};
-    sigmoids.c = own;
-    SpectrumSamplerAccess::run(*tables.white, kernels, lambda_nm.row(block, 0), whites,
-                               count * kLanesPerBlock);
-    kernels.sigmoids_at(to, sigmoids, lambda_nm.row(block, 0), count, 1);
-    kernels.multiply(to, to, whites, count * kLanesPerBlock);
-    kernels.scale_lanes(to, to, scale + at, count, 1);
-  }
 }
 
 /// `first` and `count` in blocks.
@@ -88,8 +49,8 @@ void upsample_tile(const kernels::KernelTable& table, const Upsampler& upsampler
       rows::solve(table, upsampler, rgb, {{chunk.c[0], chunk.c[1], chunk.c[2]}, scale}, chunk.unsolved,
                   blocks * kLanesPerBlock);
     }
-    sample_blocks(table, upsampler, direct ? rgb : found, scale, blocks_of(lambda_nm, block, blocks),
-                  blocks_of(out, block, blocks));
+    rows::samples_at(table, upsampler, direct ? rgb : found, scale, blocks_of(lambda_nm, block, blocks),
+                     blocks_of(out, block, blocks));
   }
 }
 
@@ -115,8 +76,8 @@ Result<void> expand(const Upsampler& upsampler, const CoefficientLanes& in, Samp
   tiles::for_blocks(samples.blocks(), execution, [&](std::size_t first, std::size_t count) {
     const std::size_t at = first * kLanesPerBlock;
     const float* const row[3] = {c.c[0] + at, c.c[1] + at, c.c[2] + at};
-    sample_blocks(*table, upsampler, row, scale == nullptr ? nullptr : scale + at,
-                  blocks_of(lambda_nm, first, count), blocks_of(samples, first, count));
+    rows::samples_at(*table, upsampler, row, scale == nullptr ? nullptr : scale + at,
+                     blocks_of(lambda_nm, first, count), blocks_of(samples, first, count));
   });
   return {};
 }

@@ -113,6 +113,12 @@ Result<void> set_sigmoid(const Upsampler& upsampler, WavelengthTables& out) {
 
 }  // namespace
 
+Result<std::shared_ptr<const WavelengthTables>> centre_tables(const Bands& bands) {
+  const auto out = std::make_shared<WavelengthTables>();
+  SPECTILE_TRY(set_centres(bands, *out));
+  return std::shared_ptr<const WavelengthTables>(out);
+}
+
 Result<std::shared_ptr<const WavelengthTables>> wavelength_tables(const Upsampler& upsampler) {
   const auto out = std::make_shared<WavelengthTables>();
   SPECTILE_TRY(set_centres(upsampler.bands(), *out));

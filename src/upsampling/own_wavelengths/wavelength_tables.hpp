@@ -21,7 +21,10 @@ struct WavelengthTables {
   std::optional<SpectrumSampler> white;  ///< that sigmoids of lights are multiplied by
 };
 
-/// Errors: kOutOfMemory.
+/// The centres of bands alone. Errors: kOutOfMemory; kBadArgument for bands beyond the range of float.
+Result<std::shared_ptr<const WavelengthTables>> centre_tables(const Bands& bands);
+
+/// Errors: the same.
 Result<std::shared_ptr<const WavelengthTables>> wavelength_tables(const Upsampler& upsampler);
 
 }  // namespace spectile

@@ -6,33 +6,12 @@
 
 #include "src/base/errors.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
+#include "src/upsampling/method_rows.hpp"
 
 namespace spectile::io {
 namespace {
 
 constexpr std::size_t kWeights = 7;
-
-/// Weights of white, cyan, magenta, yellow, red, green, blue: see smits_blocks in kernels/abi.hpp. Where two
-/// components are the same the weight that either could have is 0.
-void weights_of(const float* const rgb[3], std::size_t n, float* const* out) {
-  for (std::size_t x = 0; x < n; ++x) {
-    const float r = rgb[0][x];
-    const float g = rgb[1][x];
-    const float b = rgb[2][x];
-    const float least = std::min(r, std::min(g, b));
-    const float greatest = std::max(r, std::max(g, b));
-    const float middle = std::max(std::min(r, g), std::min(std::max(r, g), b));
-    const float second = middle - least;
-    const float first = greatest - middle;
-    out[0][x] = least;
-    out[1][x] = r == least ? second : 0.0F;
-    out[2][x] = g == least ? second : 0.0F;
-    out[3][x] = b == least ? second : 0.0F;
-    out[4][x] = r == greatest ? first : 0.0F;
-    out[5][x] = g == greatest ? first : 0.0F;
-    out[6][x] = b == greatest ? first : 0.0F;
-  }
-}
 
 void mix(const float* const weights[kWeights], const float* basis, std::size_t n, float* out) {
   for (std::size_t x = 0; x < n; ++x) {
@@ -106,7 +85,7 @@ void BandFilter::filter(const LineCoefficients& of, std::size_t width, float* co
       for (std::size_t k = 0; k < 3; ++k) std::memcpy(out[k], of.c[k], width * sizeof(float));
       return;
     case Kind::kWeights:
-      return weights_of(of.c, width, out);
+      return rows::basis_weights(of.c, width, out);
     case Kind::kSamples:
       break;
   }

@@ -1,0 +1,159 @@
+// TextureLookup: filtered samples of lanes, block by block.
+#include "src/io/texture/texture_lookup.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "src/upsampling/own_wavelengths/samples_at.hpp"
+
+namespace spectile::io {
+namespace {
+
+using kernels::KernelTable;
+
+constexpr std::size_t kLanes = kLanesPerBlock;
+constexpr std::size_t kMaxTaps = 8;
+/// Samples of a lane that are made at once.
+constexpr std::size_t kSamples = SpectralAxis::kMaxWavelengths;
+
+/// Where a block's lanes find their texels.
+struct Places {
+  alignas(64) std::int32_t tile[kMaxTaps][kLanes];
+  alignas(64) std::int32_t texel[kMaxTaps][kLanes];
+  alignas(64) float weight[kMaxTaps][kLanes];
+};
+
+/// Work space of samples.
+struct Samples {
+  alignas(64) float sum[kSamples * kLanes];
+  alignas(64) float tap[kSamples * kLanes];
+};
+
+/// sum = tap * weight, added to what is there after the first tap.
+void accumulate(const KernelTable& kernels, float* sum, const float* tap, const float* weight,
+                std::size_t count, bool first) {
+  if (first) {
+    kernels.scale_lanes(sum, tap, weight, count, 1);
+  } else {
+    kernels.multiply_add_lanes(sum, tap, weight, sum, count, 1);
+  }
+}
+
+/// The numbers of a tap's texels, [floats][64].
+Result<void> tap_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                         std::size_t tap, std::size_t lanes, float* out) {
+  alignas(64) float rows[kLanes * kernels::kSmitsRow];
+  const std::size_t floats = content.tiles.format().floats;
+  const auto keep = [&](auto constant) {
+    return content.tiles.for_each(places.tile[tap], places.texel[tap], lanes,
+                                  [&](std::size_t lane, const float* texel) {
+                                    std::memcpy(rows + lane * constant(), texel, constant() * sizeof(float));
+                                  });
+  };
+  using Quad = std::integral_constant<std::size_t, 4>;
+  using Row = std::integral_constant<std::size_t, kernels::kSmitsRow>;
+  SPECTILE_TRY(floats == 4 ? keep(Quad{}) : keep(Row{}));
+  kernels.rows_to_blocks(out, rows, floats, floats, lanes);
+  return {};
+}
+
+/// The scale of coefficients, or null.
+const float* scale_of(const TextureContent& content, const float* numbers) {
+  return content.tiles.format().planes.size() > 3 ? numbers + 3 * kLanes : nullptr;
+}
+
+SampledSpectraView view_of(const float* samples, std::size_t count) {
+  return {samples, kLanes, *SpectralAxis::own_wavelengths(count)};
+}
+SampledSpectraSpan span_of(float* samples, std::size_t count) {
+  return {samples, kLanes, *SpectralAxis::own_wavelengths(count)};
+}
+
+void samples_of(const KernelTable& kernels, const TextureContent& content, const float* numbers,
+                const float* lambda_nm, std::size_t count, float* out) {
+  if (content.tiles.format().kind == TexelKind::kWeights) {
+    rows::samples_of_weights(kernels, *content.upsampler, numbers, view_of(lambda_nm, count),
+                             span_of(out, count));
+    return;
+  }
+  const float* const c[3] = {numbers, numbers + kLanes, numbers + 2 * kLanes};
+  rows::samples_at(kernels, *content.upsampler, c, scale_of(content, numbers), view_of(lambda_nm, count),
+                   span_of(out, count));
+}
+
+/// Linear numbers: filtered, then made into samples.
+Result<void> filter_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                            std::size_t taps, const TextureBlock& block, float* out) {
+  alignas(64) float sum[kernels::kSmitsRow * kLanes];
+  alignas(64) float tap[kernels::kSmitsRow * kLanes];
+  const std::size_t floats = content.tiles.format().floats;
+  for (std::size_t i = 0; i < taps; ++i) {
+    SPECTILE_TRY(tap_numbers(kernels, content, places, i, block.lanes, tap));
+    accumulate(kernels, sum, tap, places.weight[i], floats, i == 0);
+  }
+  for (std::size_t k = 0; k < block.count; k += kSamples) {
+    samples_of(kernels, content, sum, block.lambda_nm + k * kLanes, std::min(kSamples, block.count - k),
+               out + k * kLanes);
+  }
+  return {};
+}
+
+/// Others: samples of each tap's texels, then filtered.
+Result<void> filter_samples(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                            std::size_t taps, const TextureBlock& block, float* out) {
+  alignas(64) float numbers[kMaxTaps][kernels::kSmitsRow * kLanes];
+  Samples samples;
+  for (std::size_t i = 0; i < taps; ++i)
+    SPECTILE_TRY(tap_numbers(kernels, content, places, i, block.lanes, numbers[i]));
+  for (std::size_t k = 0; k < block.count; k += kSamples) {
+    const std::size_t some = std::min(kSamples, block.count - k);
+    for (std::size_t i = 0; i < taps; ++i) {
+      samples_of(kernels, content, numbers[i], block.lambda_nm + k * kLanes, some, samples.tap);
+      accumulate(kernels, samples.sum, samples.tap, places.weight[i], some, i == 0);
+    }
+    std::memcpy(out + k * kLanes, samples.sum, some * kLanes * sizeof(float));
+  }
+  return {};
+}
+
+/// Bands: of each texel those next to the wavelengths, linear between them, filtered.
+Result<void> filter_bands(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                          std::size_t taps, const TextureBlock& block, float* out) {
+  Samples samples = {};
+  alignas(64) float next[kSamples * kLanes] = {};
+  alignas(64) float part[kSamples * kLanes];
+  alignas(64) std::int32_t interval[kSamples * kLanes];
+  for (std::size_t k = 0; k < block.count; k += kSamples) {
+    const std::size_t some = std::min(kSamples, block.count - k);
+    const std::size_t n = some * kLanes;
+    kernels.centre_places(interval, part, block.lambda_nm + k * kLanes, content.centres, n);
+    for (std::size_t i = 0; i < taps; ++i) {
+      SPECTILE_TRY(content.tiles.for_each(places.tile[i], places.texel[i], block.lanes,
+                                          [&](std::size_t lane, const float* texel) {
+                                            for (std::size_t at = lane; at < n; at += kLanes) {
+                                              samples.tap[at] = texel[interval[at]];
+                                              next[at] = texel[interval[at] + 1];
+                                            }
+                                          }));
+      kernels.subtract(next, next, samples.tap, n);
+      kernels.multiply_add(samples.tap, part, next, samples.tap, n);
+      accumulate(kernels, samples.sum, samples.tap, places.weight[i], some, i == 0);
+    }
+    std::memcpy(out + k * kLanes, samples.sum, n * sizeof(float));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> sample_block(const KernelTable& kernels, const TextureContent& content,
+                          const kernels::TextureShape& shape, const TextureBlock& block, float* out) {
+  Places places;
+  kernels.texture_places({places.tile[0], places.texel[0], places.weight[0]}, block.at, shape, kLanes);
+  const auto taps = static_cast<std::size_t>(shape.taps);
+  if (content.upsampler == nullptr) return filter_bands(kernels, content, places, taps, block, out);
+  return content.tiles.format().linear ? filter_numbers(kernels, content, places, taps, block, out)
+                                       : filter_samples(kernels, content, places, taps, block, out);
+}
+
+}  // namespace spectile::io
