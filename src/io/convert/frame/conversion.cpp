@@ -79,7 +79,10 @@ class Run {
   void restrict_to(ChunkRange range) {
     next_chunk_ = range.first;
     end_chunk_ = range.end;
-    for (int chunk = 0; chunk < range.first; ++chunk) done_ += pixels_of(chunk);
+    const PixelWindow window = writer_.window(range.first);
+    const auto lines = static_cast<std::uint64_t>(window.y0);
+    done_ = lines * static_cast<std::uint64_t>(writer_.width());
+    for (int i = 1; i <= range.first % writer_.chunks_across(); ++i) done_ += pixels_of(range.first - i);
   }
 
   Result<LineStats> run(int threads) {
