@@ -108,6 +108,9 @@ TEST_F(SpectralImageErrors, DataMustBeLongEnoughForItsStrides) {
                                           {{}, 6, 0, 0, 0}}) {
     EXPECT_EQ(code_of(to.write_rows(2, 2, wrong)), code(ErrorCode::kSizeMismatch));
   }
+  // Twice as much is 2 in 64 bits.
+  EXPECT_EQ(code_of(to.write_rows(2, 3, StridedSpectraView{data, 6, huge, 6, 1})),
+            code(ErrorCode::kSizeMismatch));
   expect(to.write_rows(2, 2, StridedSpectraView::interleaved(data, 5, 70)), ErrorCode::kBandsMismatch,
          "spectra of 5 bands, the image expects 6");
   EXPECT_EQ(to.next_row(), 2);
