@@ -24,6 +24,7 @@ struct SpectralImageOptions {
   std::string units = {};
   SampleType pixel = SampleType::kHalf;  ///< of all channels: kHalf or kFloat
   Compression compression = {};
+  /// Of pixels with NaN or infinity in a sample, alpha's too: an error, or 0 in every channel, and counted.
   NonFinite nonfinite = NonFinite::kStop;
   /// Channels R, G, B: linear sRGB, of reflectances under D65, of light as it is, for CIE 1931, as
   /// project_image() has it.
@@ -34,9 +35,9 @@ struct SpectralImageOptions {
   std::optional<std::array<int, 2>> tile = {};  ///< width and height, 1 to 4096; none: scanlines
   /// Mip levels, as ImageOptions::mipmap has them. For write_spectral_image() only, which has all rows.
   bool mipmap = false;
-  int threads = 0;       ///< 0: every core that the process may use
-  bool durable = false;  ///< wait for the device, so that no loss of power takes a file back
-  ProgressFunction progress = {};
+  int threads = 0;                 ///< 0: every core that the process may use
+  bool durable = false;            ///< wait for the device, so that no loss of power takes a file back
+  ProgressFunction progress = {};  ///< called when a chunk of the file is written
 };
 
 /// View of spectra in an arrangement of the caller's. Shapes: sample k of pixel x of row y is
@@ -96,11 +97,12 @@ class SpectralImageWriter {
   int next_row() const noexcept;
 
   /// Takes rows first_row to first_row + rows - 1, which must be the next ones. The spectra are read before
-  /// it returns, and not kept. Shapes: spectra [rows * width], pixel x of row y in lane (y - first_row) *
-  /// width + x; alpha [rows * width], the same way, or nothing without SpectralImageOptions::alpha. Numbers:
-  /// float samples keep every bit, half ones are rounded to nearest even. Samples beyond 65504 in a half
-  /// become that, and their pixels are counted. NaN and infinities, of alpha too: ImageOptions::nonfinite
-  /// says how; kZero makes all of the pixel 0. A preview beyond 2^124 is that.
+  /// it returns, and not kept.
+  /// Shapes: spectra [rows * width], pixel x of row y in lane (y - first_row) * width + x; alpha
+  /// [rows * width], the same way, or nothing without SpectralImageOptions::alpha.
+  /// Numbers: float samples keep every bit, half ones are rounded to nearest even. Samples beyond 65504 in a
+  /// half become that, and their pixels are counted. For NaN and infinities, of alpha too, see
+  /// SpectralImageOptions::nonfinite. A preview beyond 2^124 is that.
   /// Errors: kBandsMismatch for other bands than those of create(), and for wavelengths of each lane's own;
   /// kSizeMismatch for another number of lanes or samples of alpha; kBadArgument for rows that are not the
   /// next ones, or no data; kNonFinite, which names the first pixel and the number among these rows;
@@ -124,7 +126,8 @@ class SpectralImageWriter {
 /// Writes spectra as a spectral image in the layout of upsample_image(), whole or not at all. Shapes: spectra
 /// [width * height], pixel x, y in lane y * width + x; alpha the same, or nothing without
 /// SpectralImageOptions::alpha. The bands are those of the spectra. Numbers, errors: those of
-/// SpectralImageWriter; the number of pixels that are not finite is that of the whole image.
+/// SpectralImageWriter; the number of pixels that are not finite is that of the whole image. Source: Fichet,
+/// Pacanowski, Wilkie, An OpenEXR Layout for Spectral Images, JCGT 10(3), 2021.
 Result<ImageReport> write_spectral_image(const std::string& path, SampledSpectraView spectra, int width,
                                          int height, const SpectralImageOptions& options = {},
                                          std::span<const float> alpha = {});

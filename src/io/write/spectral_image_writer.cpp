@@ -35,13 +35,13 @@ SpectralImageWriter::~SpectralImageWriter() = default;
 Result<SpectralImageWriter> SpectralImageWriter::create(const std::string& path, int width, int height,
                                                         const Bands& bands,
                                                         const SpectralImageOptions& options) {
-  if (options.mipmap) {
-    return make_error(ErrorCode::kBadArgument,
-                      "{}: mip levels are averages of rows that this writer does not keep; "
-                      "write_spectral_image() writes them",
-                      path);
-  }
   return io::contained<SpectralImageWriter>(path, [&]() -> Result<SpectralImageWriter> {
+    if (options.mipmap) {
+      return make_error(ErrorCode::kBadArgument,
+                        "{}: mip levels are averages of rows that this writer does not keep; "
+                        "write_spectral_image() writes them",
+                        path);
+    }
     SPECTILE_ASSIGN(auto writer, io::SpectralWriter::create(path, width, height, bands, options));
     return SpectralImageWriter(std::move(writer));
   });

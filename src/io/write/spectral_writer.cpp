@@ -202,6 +202,10 @@ Result<void> SpectralWriter::encode(int end_chunk_row, LineStats& found) {
 }
 
 Result<ImageReport> SpectralWriter::finish() {
+  return contained<ImageReport>(path_, [&] { return complete(); });
+}
+
+Result<ImageReport> SpectralWriter::complete() {
   if (failed_) return *failed_;
   if (!file_) return make_error(ErrorCode::kBadArgument, "{}: the image is complete already", path_);
   if (next_row_ < height_) {

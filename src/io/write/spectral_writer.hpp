@@ -25,10 +25,12 @@ class SpectralWriter {
   /// Spectra: one of the views. Errors: those of SpectralImageWriter::write_rows().
   template <class Spectra>
   Result<void> write_rows(const RowRange& range, const Spectra& spectra, std::span<const float> alpha) {
-    SPECTILE_TRY(check(range));
-    SPECTILE_ASSIGN(const auto rows,
-                    SpectraRows::of({path_, width_, bands_, options_.alpha}, range, spectra, alpha));
-    return lasting([&] { return take(rows); });
+    return contained<void>(path_, [&]() -> Result<void> {
+      SPECTILE_TRY(check(range));
+      SPECTILE_ASSIGN(const auto rows,
+                      SpectraRows::of({path_, width_, bands_, options_.alpha}, range, spectra, alpha));
+      return lasting([&] { return take(rows); });
+    });
   }
 
   /// Errors: those of SpectralImageWriter::finish().
@@ -40,6 +42,7 @@ class SpectralWriter {
   Result<void> check(const RowRange& range) const;
   Result<void> take(const SpectraRows& rows);
   Result<void> encode(int end_chunk_row, LineStats& found);
+  Result<ImageReport> complete();
   Result<void> lasting(const std::function<Result<void>()>& action);
 
   std::string path_;
