@@ -20,6 +20,7 @@
 #include <spectile/image/plan_file.hpp>
 #include <spectile/image/polarisation.hpp>
 #include <spectile/image/settings.hpp>
+#include <spectile/image/spectral_image_writer.hpp>
 #include <spectile/image/spectral_texture.hpp>
 #include <spectile/image/texture_cache.hpp>
 #include <spectile/isa.hpp>

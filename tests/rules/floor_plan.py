@@ -45,6 +45,8 @@ ROOMS = [
      "base spectra abi dispatch lanes color film image io/exr io/channels io/frame io/sources io/stages"),
     ("io/texture", "src/io/texture",
      "base spectra abi dispatch lanes color upsampling planner image io/exr io/channels io/frame io/sources io/stages"),
+    ("io/write", "src/io/write",
+     "base spectra abi dispatch lanes color image io/exr io/channels io/frame io/stages"),
     ("bench", "include/spectile/bench bench",
      "base data spectra radiometry abi reference dispatch lanes color upsampling oracle planner film scene"),
     ("umbrella", "include/spectile/spectile.hpp",

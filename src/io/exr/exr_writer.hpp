@@ -92,6 +92,8 @@ class ExrWriter {
   int chunks() const noexcept {
     return chunks_across() * ((height_ + lines_per_chunk() - 1) / lines_per_chunk());
   }
+  /// Chunks side by side: one, or the tiles of a row.
+  int chunks_across() const noexcept { return (width_ + layout().chunk_width - 1) / layout().chunk_width; }
   /// The pixels of a chunk, counted from the level's upper left corner: tiles go from left to right, then
   /// down.
   PixelWindow window(int chunk) const noexcept;
@@ -142,7 +144,6 @@ class ExrWriter {
   Result<void> check(exr_result_t code);
   Error failure(const char* doing, exr_result_t code);
   Error write_failure(const char* doing, exr_result_t code);
-  int chunks_across() const noexcept { return (width_ + layout().chunk_width - 1) / layout().chunk_width; }
   const Layout& layout() const noexcept { return layouts_[static_cast<std::size_t>(part_)]; }
   Result<void> encode_dwa_chunk(std::size_t slot, int chunk, const Pack& pack);
   void end_encoding();

@@ -42,6 +42,7 @@ Result<std::shared_ptr<Strip>> cut_strip(const Strip& from, int x, int width, in
     planes[i].type = from.sample_bytes(i) == 2 ? SampleType::kHalf : SampleType::kFloat;
   }
   SPECTILE_ASSIGN(auto out, make_strip(planes, width, first_line, lines));
+  out->first_x = from.first_x + x;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const std::size_t skipped = static_cast<std::size_t>(x) * from.sample_bytes(i);
     for (int line = first_line; line < first_line + lines; ++line) {

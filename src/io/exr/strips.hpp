@@ -23,7 +23,8 @@ struct PlaneSpec {
 struct Strip {
   int first_line = 0;
   int lines = 0;
-  int width = 0;  ///< pixels of a line
+  int width = 0;    ///< pixels of a line
+  int first_x = 0;  ///< of a part of another strip: where it starts there
   std::vector<FloatBuffer> planes;
   std::vector<std::size_t> stride_bytes;
   std::vector<std::size_t> row_bytes;  ///< of a line's pixels, without what pads it

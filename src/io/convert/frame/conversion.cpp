@@ -69,10 +69,21 @@ class Run {
                                  writer.lines_per_chunk()),
         options_(options),
         stop_at_(stop_at),
+        end_chunk_(writer.chunks()),
         cache_(kCacheBytes),
         counts_(options.skip && job.repeats() && !thin_),
         // A chunk that is not compressed costs little more than the search for it.
         caches_(counts_ && writer.compresses()) {}
+
+  /// Leaves out all other chunks.
+  void restrict_to(ChunkRange range) {
+    next_chunk_ = range.first;
+    end_chunk_ = range.end;
+    const PixelWindow window = writer_.window(range.first);
+    const auto lines = static_cast<std::uint64_t>(window.y0);
+    done_ = lines * static_cast<std::uint64_t>(writer_.width());
+    for (int i = 1; i <= range.first % writer_.chunks_across(); ++i) done_ += pixels_of(range.first - i);
+  }
 
   Result<LineStats> run(int threads) {
     read_ahead_ = threads > 1;
@@ -85,7 +96,7 @@ class Run {
 
  private:
   bool produce(Slot& slot) {
-    if (failed_ || next_chunk_ >= writer_.chunks()) return false;
+    if (failed_ || next_chunk_ >= end_chunk_) return false;
     const PixelWindow window = writer_.window(next_chunk_);
     slot.stats = {};
     slot.known.reset();
@@ -216,8 +227,7 @@ class Run {
       }
     }
     slot.known.reset();
-    const PixelWindow window = writer_.window(slot.chunk);
-    done_ += static_cast<std::uint64_t>(window.width()) * static_cast<std::uint64_t>(window.height());
+    done_ += pixels_of(slot.chunk);
     Progress progress = writer_.progress();
     progress.pixels_done += done_;
     if (options_.progress && !options_.progress(progress)) {
@@ -236,6 +246,11 @@ class Run {
     slot.encoded = known.encoded;
   }
 
+  std::uint64_t pixels_of(int chunk) const {
+    const PixelWindow window = writer_.window(chunk);
+    return static_cast<std::uint64_t>(window.width()) * static_cast<std::uint64_t>(window.height());
+  }
+
   bool fail(const Error& error) {
     const std::scoped_lock lock(mutex_);
     if (!error_) error_ = error;
@@ -250,6 +265,7 @@ class Run {
   int strip_lines_;
   const ImageOptions& options_;
   const std::function<bool(const LineStats&)>& stop_at_;
+  int end_chunk_;
   ChunkCache cache_;
   bool counts_ = false;
   bool caches_ = false;
@@ -271,6 +287,14 @@ Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t sl
                                  const ImageOptions& options,
                                  const std::function<bool(const LineStats&)>& stop_at) {
   return Run(job, writer, slots, strip_lines, options, stop_at).run(tiles::thread_count(options.threads));
+}
+
+Result<LineStats> run_chunks(LineJob& job, ExrWriter& writer, ChunkRange range, std::size_t slots,
+                             const ImageOptions& options,
+                             const std::function<bool(const LineStats&)>& stop_at) {
+  Run run(job, writer, slots, writer.height(), options, stop_at);
+  run.restrict_to(range);
+  return run.run(tiles::thread_count(options.threads));
 }
 
 Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,

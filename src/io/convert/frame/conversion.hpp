@@ -72,6 +72,17 @@ Result<LineStats> run_conversion(LineJob& job, ExrWriter& writer, std::size_t sl
                                  const ImageOptions& options,
                                  const std::function<bool(const LineStats&)>& stop_at);
 
+/// Chunks first to end - 1 of the present level.
+struct ChunkRange {
+  int first = 0;
+  int end = 0;
+};
+
+/// The same for some chunks of a job whose lines are in memory, so that an image can be written bit by bit.
+Result<LineStats> run_chunks(LineJob& job, ExrWriter& writer, ChunkRange range, std::size_t slots,
+                             const ImageOptions& options,
+                             const std::function<bool(const LineStats&)>& stop_at);
+
 /// The error for a conversion that stopped at pixels it may not convert; `what` is "non-finite" or
 /// "negative".
 Error stopped_at(const std::string& path, ErrorCode code, const char* what, const PixelCount& found,

@@ -91,6 +91,17 @@ Result<ImageReport> run_fitted(ImageJob image);
 
 }  // namespace
 
+void add_counts(ImageReport& report, const LineStats& stats, const ExrWriter& writer) {
+  report.width = writer.size(0).width;
+  report.height = writer.size(0).height;
+  report.nonfinite_pixels = stats.nonfinite.count;
+  report.negative_pixels = stats.negative.count;
+  report.over_one_pixels = stats.over_one;
+  report.out_of_gamut_pixels = stats.outside.count;
+  report.clamped_pixels = stats.clamped;
+  report.bytes_written = writer.bytes_written();
+}
+
 Result<ImageReport> run_image_job(ImageJob image) {
   if (!image.options.mipmap || image.job.filtered() == nullptr) return run_fitted(std::move(image));
   const PartHeader& source = *image.spec.source;
@@ -153,14 +164,7 @@ Result<ImageReport> run_fitted(ImageJob image) {
   SPECTILE_TRY(writer.commit(options.durable));
   ImageReport report = std::move(image.report);
   if (image.remark) image.remark(stats, report.notes);
-  report.width = writer.size(0).width;
-  report.height = writer.size(0).height;
-  report.nonfinite_pixels = stats.nonfinite.count;
-  report.negative_pixels = stats.negative.count;
-  report.over_one_pixels = stats.over_one;
-  report.out_of_gamut_pixels = stats.outside.count;
-  report.clamped_pixels = stats.clamped;
-  report.bytes_written = writer.bytes_written();
+  add_counts(report, stats, writer);
   if (options.skip) report.skipped = skip_stats(stats);
   return report;
 }

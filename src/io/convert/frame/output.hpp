@@ -51,6 +51,9 @@ struct ImageJob {
   std::function<void(const LineStats&, std::vector<std::string>&)> remark = {};
 };
 
+/// Adds the size and the bytes of a complete file to a report, and the counts of the image itself.
+void add_counts(ImageReport& report, const LineStats& stats, const ExrWriter& writer);
+
 /// Creates the output, runs the conversion, writes mip levels where the file has some, completes the file,
 /// and adds its size, counts and bytes to the report, counts being those of the image itself. Errors:
 /// kBadArgument for samples that are written as integers; those of ExrWriter and run_conversion(); the

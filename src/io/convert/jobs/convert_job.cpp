@@ -9,6 +9,7 @@
 #include "src/base/errors.hpp"
 #include "src/io/convert/stages/band_channels.hpp"
 #include "src/io/convert/stages/color_rows.hpp"
+#include "src/io/convert/stages/sample_rows.hpp"
 
 namespace spectile::io {
 
@@ -77,7 +78,7 @@ void ConvertJob::make_rows(Work& work, const Strip& strip, int line, float* cons
     source_.block(kernels_, strip, line, at, work.block.data());
     make_block(work.block.data(), at, rows);
   }
-  sanitize(rows, width, line, stats);
+  sanitize_samples({rows, sums_.size()}, width, line, options_.nonfinite, stats);
 }
 
 void ConvertJob::make_block(const float* block, std::size_t at, float* const* rows) const {
@@ -95,44 +96,13 @@ void ConvertJob::make_block(const float* block, std::size_t at, float* const* ro
   }
 }
 
-/// Counts pixels with a sample that is not finite, and makes their spectra 0 where the options say so.
-void ConvertJob::sanitize(float* const* rows, std::size_t width, int line, LineStats& stats) const {
-  const std::size_t count = sums_.size();
-  const auto is_good = [](float v) { return std::fabs(v) <= std::numeric_limits<float>::max(); };
-  bool all_good = true;
-  for (std::size_t k = 0; k < count; ++k) all_good = all_good && is_good(largest_magnitude(rows[k], width));
-  for (std::size_t x = 0; x < width && !all_good; ++x) {
-    bool good = true;
-    for (std::size_t k = 0; k < count; ++k) good = good && is_good(rows[k][x]);
-    if (good) continue;
-    stats.nonfinite.add(1, static_cast<int>(x), line);
-    for (std::size_t k = 0; k < count && options_.nonfinite == NonFinite::kZero; ++k) rows[k][x] = 0;
-  }
-}
-
-/// Clamps what a half cannot hold in the rows that become halves, and counts its pixels.
-std::uint64_t ConvertJob::clamp(float* const* rows, std::size_t width) const {
-  std::vector<float*> beyond;
-  for (std::size_t k = 0; k < sums_.size(); ++k) {
-    if (sums_[k].channel.type != SampleType::kHalf) continue;
-    if (!(largest_magnitude(rows[k], width) <= kernels::kHalfMax)) beyond.push_back(rows[k]);
-  }
-  if (beyond.empty()) return 0;
-  std::uint64_t clamped = 0;
-  for (std::size_t x = 0; x < width; ++x) {
-    clamped +=
-        std::ranges::any_of(beyond, [x](const float* r) { return std::fabs(r[x]) > kernels::kHalfMax; }) ? 1
-                                                                                                         : 0;
-  }
-  for (float* const row : beyond) {
-    kernels_.clamp(row, row, -kernels::kHalfMax, kernels::kHalfMax, blocks_for(width) * kLanesPerBlock);
-  }
-  return clamped;
-}
-
 /// Packs the slot's rows, and returns how many pixels were clamped.
 std::uint64_t ConvertJob::pack(Work& work, std::size_t width, std::byte* packed) const {
-  const std::uint64_t clamped = clamp(work.each.data(), width);
+  std::vector<float*> halves;
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    if (sums_[k].channel.type == SampleType::kHalf) halves.push_back(work.each[k]);
+  }
+  const std::uint64_t clamped = clamp_samples(kernels_, halves, width);
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     store_row(kernels_, work.each[k], width, sums_[k].channel.type, work.halves.data(),
               packed + writer_->channel_offset(k, width));

@@ -52,8 +52,6 @@ class ConvertJob : public FilteredJob {
   };
   void make_rows(Work& work, const Strip& strip, int line, float* const* rows, LineStats& stats) const;
   void make_block(const float* block, std::size_t at, float* const* rows) const;
-  void sanitize(float* const* rows, std::size_t width, int line, LineStats& stats) const;
-  std::uint64_t clamp(float* const* rows, std::size_t width) const;
   std::uint64_t pack(Work& work, std::size_t width, std::byte* packed) const;
   void pass(const Strip& strip, int line, std::size_t first_plane, std::byte* packed) const;
   std::size_t passing_count() const { return source_.planes().size() - source_.samples(); }

@@ -193,12 +193,7 @@ void add_notes(const ColorWeights& weights, const ProjectImageOptions& options,
   if (options.photometric) {
     notes.emplace_back("emission is taken as W / (m2 sr nm), so that Y is in cd/m2");
   }
-  if (options.target == ColorTarget::kSrgb && weights.white_compensation < 1) {
-    notes.push_back(
-        fmt::format("the bands miss much of the visible range: {:.0f} % of the tint that this gives to white "
-                    "is taken out",
-                    100 * weights.white_compensation));
-  }
+  if (options.target == ColorTarget::kSrgb) io::note_white(weights.white_compensation, notes);
 }
 
 Result<ImageReport> project_file(const std::string& input, const std::string& output,

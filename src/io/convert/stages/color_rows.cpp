@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/base/errors.hpp"
+
 namespace spectile::io {
 
 void add_color_tag(TextAttributes& texts, ColorTarget target) {
@@ -73,6 +75,13 @@ Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation 
     out = adaptation_matrix(adaptation, projector.white(), d65);
   }
   return target == ColorTarget::kSrgb ? product(projector.xyz_to_srgb(), out) : out;
+}
+
+void note_white(double compensation, std::vector<std::string>& notes) {
+  if (compensation >= 1) return;
+  notes.push_back(fmt::format(
+      "the bands miss much of the visible range: {:.0f} % of the tint that this gives to white is taken out",
+      100 * compensation));
 }
 
 }  // namespace spectile::io

@@ -35,4 +35,8 @@ void load_colors(const Strip& strip, int line, std::size_t first, std::size_t co
 /// asked.
 Matrix3 color_matrix(const Projector& projector, ColorTarget target, Adaptation adaptation);
 
+/// Says how much of the tint that bands give to white a colour is free of, where that is not all of it.
+/// `compensation`: Projector::white_compensation().
+void note_white(double compensation, std::vector<std::string>& notes);
+
 }  // namespace spectile::io
