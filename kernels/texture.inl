@@ -1,8 +1,6 @@
 // Places of lanes in a texture.
 #pragma once
 
-#include <limits>
-
 #include "kernels/abi/texture.hpp"
 #include "kernels/simd/tables.hpp"
 
@@ -88,7 +86,7 @@ inline void store_tap(const TextureTexels& out, std::size_t at, const LevelPlace
   };
   unless_none(I32(-1), tile).store_aligned(out.tile + at);
   unless_none(I32(0), texel).store_aligned(out.texel + at);
-  store(out.weight + at, xsimd::select(no_number, F32(std::numeric_limits<float>::quiet_NaN()), weight));
+  store(out.weight + at, xsimd::select(no_number, F32(__builtin_nanf("")), weight));
 }
 
 inline void store_level(const TextureTexels& out, std::size_t at, std::size_t n, const LevelPlaces& level,

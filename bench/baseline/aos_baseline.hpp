@@ -26,6 +26,8 @@ struct AosTables {
   const float* knots_nm;  ///< ascending
   const float* knot_values;
   int knots;
+  const float* texels;  ///< [texture_side][texture_side][3]: RGB, or coefficients of sigmoids
+  int texture_side;
 };
 
 /// n items, each of so many floats in and out, one behind the other.
@@ -88,6 +90,9 @@ struct AosBaseline {
   /// Three numbers and 4 wavelengths to 4 samples: of a mixture of the basis, by a branch and by an index,
   /// and of a sigmoid.
   AosFunction mixture_at, mixture_at_fused, sigmoids_at;
+  /// Coordinates and 4 wavelengths to 4 samples of a bilinear texture: its colour, then the mixture; the
+  /// sigmoids of four texels.
+  AosFunction texture_of_colors, texture_of_sigmoids;
   AosFunction update_throughput;  ///< four samples, four, a density and a random number
   /// 4 wavelengths and their densities, drawn as the eye sees from one number.
   AosFunction draw_visible;

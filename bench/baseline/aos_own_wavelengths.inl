@@ -86,6 +86,63 @@ void sigmoids_at(const AosTables& /*tables*/, const float* in, float* out, std::
   }
 }
 
+/// The four texels around a point of a texture in memory that repeats, and their weights.
+struct Footprint {
+  const float* texel[4];
+  float weight[4];
+};
+
+Footprint footprint(const AosTables& t, float u, float v) {
+  const int side = t.texture_side;
+  const auto place = [side](float c, int& first, int& second) {
+    const float x = (c - std::floor(c)) * static_cast<float>(side) - 0.5F;
+    const float whole = std::floor(x);
+    first = static_cast<int>(whole);
+    second = first + 1 == side ? 0 : first + 1;
+    if (first < 0) first += side;
+    return x - whole;
+  };
+  int column[2];
+  int line[2];
+  const float dx = place(u, column[0], column[1]);
+  const float dy = place(v, line[0], line[1]);
+  Footprint out;
+  for (int tap = 0; tap < 4; ++tap) {
+    out.texel[tap] = t.texels + 3 * (line[tap / 2] * side + column[tap % 2]);
+    out.weight[tap] = (tap % 2 == 0 ? 1 - dx : dx) * (tap / 2 == 0 ? 1 - dy : dy);
+  }
+  return out;
+}
+
+/// The texture's colour is filtered, and then made into a spectrum.
+void texture_of_colors(const AosTables& t, const float* in, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 6, out += 4) {
+    const Footprint at = footprint(t, in[0], in[1]);
+    float color[7] = {};
+    for (int tap = 0; tap < 4; ++tap) {
+      for (int k = 0; k < 3; ++k) color[k] += at.weight[tap] * at.texel[tap][k];
+    }
+    for (int k = 0; k < 4; ++k) color[3 + k] = in[2 + k];
+    mixture_at_fused(t, color, out, 1);
+  }
+}
+
+void texture_of_sigmoids(const AosTables& t, const float* in, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 6, out += 4) {
+    const Footprint at = footprint(t, in[0], in[1]);
+    FourSamples sum{};
+    for (int tap = 0; tap < 4; ++tap) {
+      FourSamples one;
+      for (int k = 0; k < 4; ++k) {
+        const float nm = in[2 + k] < 402.5F ? 402.5F : in[2 + k] > 697.5F ? 697.5F : in[2 + k];
+        one.c[k] = sigmoid(at.texel[tap], (nm - 550) / 150);
+      }
+      sum += one * at.weight[tap];
+    }
+    *reinterpret_cast<FourSamples*>(out) = sum;
+  }
+}
+
 /// A bounce and Russian roulette: throughput and scattering of four samples, a density, a random number.
 void update_throughput(const AosTables& /*tables*/, const float* in, float* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i, in += 10, out += 4) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "bench/baseline/aos_baseline.hpp"
+#include "bench/operations/textures.hpp"
 #include "src/base/errors.hpp"
 
 namespace spectile::measure {
@@ -15,7 +16,7 @@ namespace {
 /// The tables of all functions, for spectra on 60 bands, filled with the operations' own constants.
 struct Tables {
   AosTables aos{};
-  std::vector<float> even, knots, knot_values;
+  std::vector<float> even, knots, knot_values, texels;
 };
 
 /// Basis of a method, and matching functions under a light; `matrix`: applied to the colour.
@@ -57,6 +58,12 @@ Result<std::shared_ptr<const Tables>> make_tables(const Bands& bands, const Oper
   t.knots_nm = out->knots.data();
   t.knot_values = out->knot_values.data();
   t.knots = static_cast<int>(out->knots.size());
+  if (operation.name.starts_with("texture")) {
+    const bool colors = operation.name.ends_with("smits-exact");
+    out->texels = texture_noise(colors ? 0.0F : -3.0F, colors ? 1.0F : 3.0F);
+    t.texels = out->texels.data();
+    t.texture_side = static_cast<int>(kTextureSide);
+  }
   return std::shared_ptr<const Tables>(std::move(out));
 }
 
@@ -83,6 +90,8 @@ Functions functions_for(std::string_view operation) {
                            {"sigmoid at wavelengths", b.sigmoid_at},
                            {"colour at 4 wavelengths, smits-exact", b.mixture_at, b.mixture_at_fused},
                            {"coefficients at 4 wavelengths, sigmoid", b.sigmoids_at},
+                           {"texture at 4 wavelengths, smits-exact", b.texture_of_colors},
+                           {"texture at 4 wavelengths, sigmoid", b.texture_of_sigmoids},
                            {"update throughput", b.update_throughput},
                            {"draw 4 wavelengths, visible", b.draw_visible}};
   for (const Functions& f : all) {

@@ -199,7 +199,7 @@ Result<std::vector<Operation>> lane_operations(const Bands& bands);
 void add_arithmetic(std::vector<Operation>& to);
 Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
-void add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
+Result<void> add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
 void add_grids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
                const std::shared_ptr<const Relighter>& relighter);
 Result<void> add_wavelengths(std::vector<Operation>& to);

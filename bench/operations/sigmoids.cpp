@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/operations/operation.hpp"
+#include "bench/operations/textures.hpp"
 #include "kernels/sigmoid_constants.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/sigmoid_model.hpp"
@@ -330,15 +331,40 @@ void add_at_own_wavelengths(std::vector<Operation>& to) {
   };
 }
 
+/// The same of the texels of a texture, coefficients of the upsampler's sigmoid.
+Result<void> add_texture_of_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
+  TextureCost cost;
+  cost.low = -3;
+  cost.high = 3;
+  cost.operations = kPlaces + 4 * kWavelengths * (kSigmoidBand + 4 + 1 + 2 + 2);
+  cost.divisions = 4 * kWavelengths;
+  cost.bottleneck = "four texels a lane, copied one by one";
+  cost.unit = "stated bound";
+  cost.bound = 1;
+  const Bands& bands = upsampler->bands();
+  cost.sample = [first = bands[0].centre_nm, last = bands[bands.count() - 1].centre_nm](
+                    const float* texel, double lambda) -> SampleAndScale {
+    const double c[3] = {static_cast<double>(texel[0]), static_cast<double>(texel[1]),
+                         static_cast<double>(texel[2])};
+    const double l = sigmoid_lambda(std::clamp(lambda, first, last));
+    const Place at = {l * l, l};
+    const double slope = std::abs(2 * c[0] * l + c[1]);
+    // Weights and sums of the filter: ten roundings.
+    return {sigmoid(c, at), allowed_at(c, at) / 0x1p-24 + slope * std::abs(l) + 10};
+  };
+  return add_texture(to, upsampler, cost);
+}
+
 }  // namespace
 
-void add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
+Result<void> add_sigmoids(std::vector<Operation>& to, const Shared& upsampler) {
   add_search(to, upsampler);
   add_continuation(to, upsampler);
   add_evaluations(to, upsampler);
-  if (upsampler->method() != Method::kSigmoid) return;
+  if (upsampler->method() != Method::kSigmoid) return {};
   add_at_wavelengths(to);
   add_at_own_wavelengths(to);
+  return add_texture_of_sigmoids(to, upsampler);
 }
 
 }  // namespace spectile::measure

@@ -10,6 +10,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "bench/operations/operation.hpp"
+#include "bench/operations/textures.hpp"
 #include "src/base/errors.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/own_wavelengths/wavelength_tables.hpp"
@@ -96,6 +97,37 @@ void add_mixture_at_wavelengths(std::vector<Operation>& to, const std::shared_pt
   op.bound = 9;
   const MixtureOracle oracle(flat_basis(*upsampler), upsampler->bands().count(), 0);
   op.error = error_between_bands(upsampler->bands(), oracle.roundings() + 3, op.bound, oracle);
+}
+
+/// Colours of the texels of a texture.
+Result<void> add_mixture_texture(std::vector<Operation>& to,
+                                 const std::shared_ptr<const Upsampler>& upsampler) {
+  TextureCost cost;
+  // Seven weights of four texels, then a wavelength: its place (11), two samples (13 each), between, NaN (5).
+  cost.operations = kPlaces + 4 * 7 * 2 + kWavelengths * (11 + 2 * 13 + 5);
+  cost.bottleneck =
+      "four texels a lane, copied one by one; fourteen gathers a wavelength from the basis spectra";
+  cost.bound = 24;
+  const auto& bands = upsampler->bands();
+  const MixtureOracle oracle(flat_basis(*upsampler), bands.count(), 0);
+  cost.sample = [oracle, first = bands[0].centre_nm, last = bands[bands.count() - 1].centre_nm,
+                 count = bands.count()](const float* texel, double lambda) -> SampleAndScale {
+    const double rgb[3] = {static_cast<double>(texel[0]), static_cast<double>(texel[1]),
+                           static_cast<double>(texel[2])};
+    thread_local std::vector<double> samples;
+    thread_local std::vector<double> scales;
+    samples.assign(count, 0.0);
+    scales.assign(count, 0.0);
+    oracle(rgb, samples.data(), scales.data());
+    const auto intervals = static_cast<double>(count - 1);
+    const double t = (std::clamp(lambda, first, last) - first) / (last - first) * intervals;
+    const auto i = static_cast<std::size_t>(std::min(t, intervals - 1));
+    const double rise = samples[i + 1] - samples[i];
+    // The place is rounded twice, as in error_between_bands().
+    return {samples[i] + (t - static_cast<double>(i)) * rise,
+            std::max(scales[i], scales[i + 1]) + 2 * t * std::abs(rise) / 24};
+  };
+  return add_texture(to, upsampler, cost);
 }
 
 void add_mixture(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
@@ -231,6 +263,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
   if (const auto exact = create_upsampler(Method::kSmitsExact)) {
     add_mixture(to, exact, "smits-exact");
     add_mixture_at_wavelengths(to, exact, "smits-exact");
+    SPECTILE_TRY(add_mixture_texture(to, exact));
     SPECTILE_ASSIGN(const auto relighter, relighter_of(exact));
     add_relight(to, relighter);
   }
@@ -239,7 +272,7 @@ Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands) {
     add_grids(to, grid, relighter);
   }
   for (const Method method : {Method::kSigmoid, Method::kSigmoidObserver}) {
-    if (const auto sigmoids = create_upsampler(method)) add_sigmoids(to, sigmoids);
+    if (const auto sigmoids = create_upsampler(method)) SPECTILE_TRY(add_sigmoids(to, sigmoids));
   }
   add_gamut(to, *smits);
   return {};

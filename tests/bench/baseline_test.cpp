@@ -43,7 +43,7 @@ TEST(AosBaseline, AgreesWithTheOperationsItStandsBeside) {
       EXPECT_LE(baseline->error(memory.lanes(), true), allowed) << op.name;
     }
   }
-  EXPECT_EQ(found, 17);
+  EXPECT_EQ(found, 19);
 }
 
 TEST(AosBaseline, HasNothingForOtherBands) {

@@ -97,10 +97,13 @@ class SpectralTexture {
 
   /// Filtered samples at each lane's own wavelengths. Filtered are spectra: the sample is the weighted mean
   /// of the texels' samples. Numbers that spectra are linear in are filtered themselves: samples of full
-  /// images, the RGB of `mallett`, the weights of the basis spectra of the `smits` methods (samples below 0
-  /// are then clamped after filtering). The coefficients of sigmoids and of `tetrahedral` are not: texels are
-  /// evaluated first. Wavelengths as in evaluate(), but for rounding to float. Tiles of 64 x 64 texels come
-  /// from the cache. A miss reads the file, whose other readers wait. Shapes: points, lambda_nm and samples
+  /// images, the RGB of `mallett`, the weights of the basis spectra of the other mixtures (what colours below
+  /// 0 make is clamped after that), but not of `smits`, whose basis spectra have samples below 0. The
+  /// coefficients of that, of sigmoids and of `tetrahedral` are evaluated first, texel by texel. Wavelengths
+  /// as in evaluate(), but for rounding to float. Tiles of 64 x 64 texels come from the cache. A miss reads
+  /// the file, whose other readers wait.
+  ///
+  /// Shapes: points, lambda_nm and samples
   /// of the same lanes; lambda_nm and samples on one axis; they may be one batch. Units: nm; the image's own.
   /// Numbers: u, v not finite, or a level or footprint NaN, gives NaN. Texels of weight 0 do not count. Each
   /// product and sum of the filter rounds once: within 10 u of the largest texel's sample. Errors:

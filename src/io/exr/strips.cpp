@@ -89,6 +89,14 @@ Result<void> fill_strip(ExrInput& input, int part, const std::vector<PlaneSpec>&
   return input.read(part, target, y0, y0 + strip.lines - 1);
 }
 
+Result<void> fill_tiles(ExrInput& input, int part, const std::vector<PlaneSpec>& planes,
+                        const ExrInput::TileRange& tiles, int x, Strip& strip) {
+  const PixelWindow& window = input.header(part).data_window();
+  Imf::FrameBuffer target;
+  add_slices(target, planes, window.x0 + x, window.y0 + strip.first_line, strip.width, strip);
+  return input.read_tiles(part, target, tiles);
+}
+
 struct LumaChromaReader::File {
   Imf::RgbaInputFile input;
 };

@@ -64,6 +64,10 @@ void add_slices(Imf::FrameBuffer& target, const std::vector<PlaneSpec>& planes, 
 /// Fills a strip's planes; an empty name leaves its plane alone. Errors: kBadFile.
 Result<void> fill_strip(ExrInput& input, int part, const std::vector<PlaneSpec>& planes, Strip& strip);
 
+/// The same from whole tiles of one level, the first of which begin at pixel x of it. Errors: kBadFile.
+Result<void> fill_tiles(ExrInput& input, int part, const std::vector<PlaneSpec>& planes,
+                        const ExrInput::TileRange& tiles, int x, Strip& strip);
+
 /// Reads luminance with subsampled chroma, channels Y, RY, BY of a file's first part, which OpenEXR puts
 /// together as RGB.
 class LumaChromaReader {

@@ -14,7 +14,7 @@ Result<void> TextureTiles::miss(std::int32_t tile, const TileCache::Wanted& want
   const std::size_t bytes = kernels::kTextureTileTexels * format().floats * sizeof(float);
   const std::size_t most = std::max<std::size_t>(1, cache_->max_bytes() / 4 / bytes);
   FloatBuffer kept;
-  SPECTILE_TRY(reader_->read(tile, most, [&](std::int32_t number, FloatBuffer texels) -> Result<void> {
+  SPECTILE_TRY(source_->read(tile, most, [&](std::int32_t number, FloatBuffer texels) -> Result<void> {
     // The tile itself last, so that none of the others takes its place.
     if (number == tile) {
       kept = std::move(texels);

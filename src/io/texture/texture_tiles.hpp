@@ -14,17 +14,17 @@ namespace spectile::io {
 /// read them one after the other.
 class TextureTiles {
  public:
-  TextureTiles(std::unique_ptr<TileReader> reader, std::shared_ptr<TileCache> cache)
-      : reader_(std::move(reader)), cache_(std::move(cache)), homes_(reader_->tiles()) {}
+  TextureTiles(std::unique_ptr<TileSource> source, std::shared_ptr<TileCache> cache)
+      : source_(std::move(source)), cache_(std::move(cache)), homes_(source_->tiles()) {}
   TextureTiles(const TextureTiles&) = delete;
   TextureTiles& operator=(const TextureTiles&) = delete;
   ~TextureTiles() { cache_->forget(homes_); }
 
-  const std::vector<std::int32_t>& levels() const noexcept { return reader_->levels(); }
-  const TexelFormat& format() const noexcept { return reader_->format(); }
+  const std::vector<std::int32_t>& levels() const noexcept { return source_->levels(); }
+  const TexelFormat& format() const noexcept { return source_->format(); }
 
   /// use(i, texel) for each of n texels: a tile, -1 for black, and a place within it. Errors: those of
-  /// TileReader::read(); then some were not used.
+  /// TileSource::read(); then some were not used.
   template <class Use>
   Result<void> for_each(const std::int32_t* tile, const std::int32_t* texel, std::size_t n, Use use) {
     const std::size_t floats = format().floats;
@@ -55,10 +55,10 @@ class TextureTiles {
  private:
   /// Numbers of a texel, at most.
   static constexpr std::size_t kMaxFloats = Bands::kMaxBands;
-  /// Reads a tile. Errors: those of TileReader::read().
+  /// Reads a tile. Errors: those of TileSource::read().
   Result<void> miss(std::int32_t tile, const TileCache::Wanted& wanted);
 
-  std::unique_ptr<TileReader> reader_;
+  std::unique_ptr<TileSource> source_;
   std::shared_ptr<TileCache> cache_;
   std::vector<TileHome> homes_;
   std::mutex reading_;

@@ -1,8 +1,6 @@
 // TileReader: the mip levels of a texture's file, and their texels tile by tile.
 #include "src/io/texture/tile_reader.hpp"
 
-#include <OpenEXR/ImfFrameBuffer.h>
-
 #include <algorithm>
 
 #include "src/base/errors.hpp"
@@ -20,17 +18,18 @@ int tiles_along(int texels) {
 
 }  // namespace
 
+void TileSource::add_level(LevelSize size) {
+  const int tiles_x = tiles_along(size.width);
+  levels_.insert(levels_.end(), {size.width, size.height, tiles_x, static_cast<std::int32_t>(tiles_)});
+  tiles_ += static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_along(size.height));
+}
+
 Result<std::unique_ptr<TileReader>> TileReader::create(std::unique_ptr<ExrInput> input, int part,
                                                        TexelFormat format) {
   std::unique_ptr<TileReader> reader(new TileReader);
   SPECTILE_ASSIGN(reader->kernels_, dispatch::active());
   SPECTILE_ASSIGN(const auto levels, input->levels(part));
-  for (const LevelSize& level : levels) {
-    const int tiles_x = tiles_along(level.width);
-    reader->levels_.insert(reader->levels_.end(),
-                           {level.width, level.height, tiles_x, static_cast<std::int32_t>(reader->tiles_)});
-    reader->tiles_ += static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_along(level.height));
-  }
+  for (const LevelSize& level : levels) reader->add_level(level);
   SPECTILE_ASSIGN(reader->samples_, FloatBuffer::create(format.planes.size() * kLanesPerBlock));
   reader->input_ = std::move(input);
   reader->part_ = part;
@@ -93,17 +92,12 @@ TileReader::Window TileReader::decoded(const Range& range, int y) const {
 }
 
 Result<void> TileReader::fill(const Range& range, const Window& window, Strip& strip) {
-  const PixelWindow& data = input_->header(part_).data_window();
-  Imf::FrameBuffer target;
-  add_slices(target, format_.planes, data.x0 + window.x, data.y0 + window.y, window.width, strip);
   const auto& tiles = input_->header(part_).tiles();
-  if (!tiles) {
-    return input_->read(part_, target, data.y0 + window.y, data.y0 + window.y + window.lines - 1);
-  }
-  return input_->read_tiles(
-      part_, target,
-      {window.x / tiles->width, (window.x + window.width - 1) / tiles->width, window.y / tiles->height,
-       (window.y + window.lines - 1) / tiles->height, range.level});
+  if (!tiles) return fill_strip(*input_, part_, format_.planes, strip);
+  return fill_tiles(*input_, part_, format_.planes,
+                    {window.x / tiles->width, (window.x + window.width - 1) / tiles->width,
+                     window.y / tiles->height, (window.y + window.lines - 1) / tiles->height, range.level},
+                    window.x, strip);
 }
 
 /// The strip's lines of the tile x, y into its texels.

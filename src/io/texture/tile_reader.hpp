@@ -11,23 +11,37 @@
 
 namespace spectile::io {
 
-/// Decodes whole tiles, or runs of lines, of the file, and makes tiles of 64 x 64 texels of them, those at
-/// the right and lower edges smaller. Not thread-safe.
-class TileReader {
+/// Where a texture's tiles come from.
+class TileSource {
  public:
-  /// Errors: kBadFile; those of dispatch::active().
-  static Result<std::unique_ptr<TileReader>> create(std::unique_ptr<ExrInput> input, int part,
-                                                    TexelFormat format);
-
-  /// A row of kTextureLevelRow numbers for each level.
+  virtual ~TileSource() = default;
+  /// A row of kTextureLevelRow numbers for each mip level.
   const std::vector<std::int32_t>& levels() const noexcept { return levels_; }
   std::size_t tiles() const noexcept { return tiles_; }
   const TexelFormat& format() const noexcept { return format_; }
 
   using Take = std::function<Result<void>(std::int32_t tile, FloatBuffer texels)>;
-  /// Reads a tile, and others that are decoded with it, no more than `max_tiles`. Shapes: texels
+  /// Hands over a tile, and others that come with it, no more than `max_tiles`. Shapes: texels
   /// [64][64][floats], undefined beyond the level's edges. Errors: kBadFile, kOutOfMemory; those of `take`.
-  Result<void> read(std::int32_t tile, std::size_t max_tiles, const Take& take);
+  virtual Result<void> read(std::int32_t tile, std::size_t max_tiles, const Take& take) = 0;
+
+ protected:
+  TileSource() = default;
+  void add_level(LevelSize size);
+  TexelFormat format_;
+  std::vector<std::int32_t> levels_;
+  std::size_t tiles_ = 0;
+};
+
+/// Decodes whole tiles, or runs of lines, of the file, and makes tiles of 64 x 64 texels of them, those at
+/// the right and lower edges smaller. Not thread-safe.
+class TileReader : public TileSource {
+ public:
+  /// Errors: kBadFile; those of dispatch::active().
+  static Result<std::unique_ptr<TileReader>> create(std::unique_ptr<ExrInput> input, int part,
+                                                    TexelFormat format);
+
+  Result<void> read(std::int32_t tile, std::size_t max_tiles, const Take& take) override;
 
  private:
   TileReader() = default;
@@ -51,9 +65,6 @@ class TileReader {
   std::unique_ptr<ExrInput> input_;
   const kernels::KernelTable* kernels_ = nullptr;
   int part_ = 0;
-  TexelFormat format_;
-  std::vector<std::int32_t> levels_;
-  std::size_t tiles_ = 0;
   FloatBuffer samples_;  // [planes][64]
 };
 
