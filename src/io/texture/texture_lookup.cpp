@@ -39,22 +39,61 @@ void accumulate(const KernelTable& kernels, float* sum, const float* tap, const 
   }
 }
 
-/// The numbers of a tap's texels, [floats][64].
-Result<void> tap_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
-                         std::size_t tap, std::size_t lanes, float* out) {
-  alignas(64) float rows[kLanes * kernels::kSmitsRow];
-  const std::size_t floats = content.tiles.format().floats;
-  const auto keep = [&](auto constant) {
-    return content.tiles.for_each(places.tile[tap], places.texel[tap], lanes,
-                                  [&](std::size_t lane, const float* texel) {
-                                    std::memcpy(rows + lane * constant(), texel, constant() * sizeof(float));
-                                  });
+TextureTiles::Places tiles_of(const Places& places) {
+  return {places.tile[0], places.texel[0], kLanes};
+}
+
+template <std::size_t kNumber>
+using Constant = std::integral_constant<std::size_t, kNumber>;
+
+/// use(floats of a texel, taps), both constants, which make their loops straight code.
+template <class Use>
+Result<void> with_constants(const TextureContent& content, std::size_t taps, Use use) {
+  const auto with_taps = [&](auto floats) {
+    if (taps == 1) return use(floats, Constant<1>());
+    return taps == 4 ? use(floats, Constant<4>()) : use(floats, Constant<8>());
   };
-  using Quad = std::integral_constant<std::size_t, 4>;
-  using Row = std::integral_constant<std::size_t, kernels::kSmitsRow>;
-  SPECTILE_TRY(floats == 4 ? keep(Quad{}) : keep(Row{}));
-  kernels.rows_to_blocks(out, rows, floats, floats, lanes);
-  return {};
+  return content.tiles.format().floats == 4 ? with_taps(Constant<4>())
+                                            : with_taps(Constant<kernels::kSmitsRow>());
+}
+
+/// The filtered numbers of lanes, [floats][64]: the sum of each tap's times its weight, in the taps' order.
+Result<void> filtered_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                              std::size_t taps, std::size_t lanes, float* out) {
+  return with_constants(content, taps, [&](auto floats, auto count) -> Result<void> {
+    constexpr std::size_t kFloats = decltype(floats)::value;
+    constexpr std::size_t kTaps = decltype(count)::value;
+    alignas(64) float rows[kLanes * kFloats];
+    const auto filter = [&](std::size_t lane, const float* const* texels) {
+      float sum[kFloats];
+      for (std::size_t k = 0; k < kFloats; ++k) sum[k] = texels[0][k] * places.weight[0][lane];
+      for (std::size_t tap = 1; tap < kTaps; ++tap) {
+        for (std::size_t k = 0; k < kFloats; ++k) sum[k] = texels[tap][k] * places.weight[tap][lane] + sum[k];
+      }
+      std::memcpy(rows + lane * kFloats, sum, sizeof(sum));
+    };
+    SPECTILE_TRY(content.tiles.template for_each<kTaps>(tiles_of(places), lanes, filter));
+    kernels.rows_to_blocks(out, rows, kFloats, kFloats, lanes);
+    return {};
+  });
+}
+
+/// The numbers of each tap's texels, [taps][floats][64].
+Result<void> tap_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
+                         std::size_t taps, std::size_t lanes, float* out) {
+  return with_constants(content, taps, [&](auto floats, auto count) -> Result<void> {
+    constexpr std::size_t kFloats = decltype(floats)::value;
+    constexpr std::size_t kTaps = decltype(count)::value;
+    alignas(64) float rows[kTaps][kLanes * kFloats];
+    const auto keep = [&](std::size_t lane, const float* const* texels) {
+      for (std::size_t tap = 0; tap < kTaps; ++tap)
+        std::memcpy(rows[tap] + lane * kFloats, texels[tap], kFloats * sizeof(float));
+    };
+    SPECTILE_TRY(content.tiles.template for_each<kTaps>(tiles_of(places), lanes, keep));
+    for (std::size_t tap = 0; tap < kTaps; ++tap)
+      kernels.rows_to_blocks(out + tap * kFloats * kLanes, rows[tap], kFloats, kFloats, lanes);
+    return {};
+  });
 }
 
 /// The scale of coefficients, or null.
@@ -85,12 +124,7 @@ void samples_of(const KernelTable& kernels, const TextureContent& content, const
 Result<void> filter_numbers(const KernelTable& kernels, const TextureContent& content, const Places& places,
                             std::size_t taps, const TextureBlock& block, float* out) {
   alignas(64) float sum[kernels::kSmitsRow * kLanes];
-  alignas(64) float tap[kernels::kSmitsRow * kLanes];
-  const std::size_t floats = content.tiles.format().floats;
-  for (std::size_t i = 0; i < taps; ++i) {
-    SPECTILE_TRY(tap_numbers(kernels, content, places, i, block.lanes, tap));
-    accumulate(kernels, sum, tap, places.weight[i], floats, i == 0);
-  }
+  SPECTILE_TRY(filtered_numbers(kernels, content, places, taps, block.lanes, sum));
   for (std::size_t k = 0; k < block.count; k += kSamples) {
     samples_of(kernels, content, sum, block.lambda_nm + k * kLanes, std::min(kSamples, block.count - k),
                out + k * kLanes);
@@ -101,14 +135,15 @@ Result<void> filter_numbers(const KernelTable& kernels, const TextureContent& co
 /// Others: samples of each tap's texels, then filtered.
 Result<void> filter_samples(const KernelTable& kernels, const TextureContent& content, const Places& places,
                             std::size_t taps, const TextureBlock& block, float* out) {
-  alignas(64) float numbers[kMaxTaps][kernels::kSmitsRow * kLanes];
+  alignas(64) float numbers[kMaxTaps * kernels::kSmitsRow * kLanes];
   Samples samples;
-  for (std::size_t i = 0; i < taps; ++i)
-    SPECTILE_TRY(tap_numbers(kernels, content, places, i, block.lanes, numbers[i]));
+  SPECTILE_TRY(tap_numbers(kernels, content, places, taps, block.lanes, numbers));
+  const std::size_t floats = content.tiles.format().floats;
   for (std::size_t k = 0; k < block.count; k += kSamples) {
     const std::size_t some = std::min(kSamples, block.count - k);
     for (std::size_t i = 0; i < taps; ++i) {
-      samples_of(kernels, content, numbers[i], block.lambda_nm + k * kLanes, some, samples.tap);
+      samples_of(kernels, content, numbers + i * floats * kLanes, block.lambda_nm + k * kLanes, some,
+                 samples.tap);
       accumulate(kernels, samples.sum, samples.tap, places.weight[i], some, i == 0);
     }
     std::memcpy(out + k * kLanes, samples.sum, some * kLanes * sizeof(float));
@@ -128,13 +163,13 @@ Result<void> filter_bands(const KernelTable& kernels, const TextureContent& cont
     const std::size_t n = some * kLanes;
     kernels.centre_places(interval, part, block.lambda_nm + k * kLanes, content.centres, n);
     for (std::size_t i = 0; i < taps; ++i) {
-      SPECTILE_TRY(content.tiles.for_each(places.tile[i], places.texel[i], block.lanes,
-                                          [&](std::size_t lane, const float* texel) {
-                                            for (std::size_t at = lane; at < n; at += kLanes) {
-                                              samples.tap[at] = texel[interval[at]];
-                                              next[at] = texel[interval[at] + 1];
-                                            }
-                                          }));
+      const auto keep = [&](std::size_t lane, const float* const* texels) {
+        for (std::size_t at = lane; at < n; at += kLanes) {
+          samples.tap[at] = texels[0][interval[at]];
+          next[at] = texels[0][interval[at] + 1];
+        }
+      };
+      SPECTILE_TRY(content.tiles.for_each<1>({places.tile[i], places.texel[i], kLanes}, block.lanes, keep));
       kernels.subtract(next, next, samples.tap, n);
       kernels.multiply_add(samples.tap, part, next, samples.tap, n);
       accumulate(kernels, samples.sum, samples.tap, places.weight[i], some, i == 0);

@@ -20,8 +20,8 @@ std::size_t first_slot() noexcept {
   return own;
 }
 
-void copy_from(const CachedTile& tile, const TileCache::Wanted& wanted) {
-  std::memcpy(wanted.to, tile.texels.data() + wanted.offset, wanted.count * sizeof(float));
+void copy_from(const float* texels, const TileCache::Wanted& wanted) {
+  std::memcpy(wanted.to, texels + wanted.offset, wanted.count * sizeof(float));
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void TileCache::wait_for_readers() noexcept {
 
 std::unique_ptr<CachedTile> TileCache::take(std::size_t at) noexcept {
   std::unique_ptr<CachedTile> tile = std::move(tiles_[at]);
-  tile->home->store(nullptr, std::memory_order_seq_cst);
+  tile->home->texels.store(nullptr, std::memory_order_seq_cst);
   bytes_ -= tile->bytes();
   tiles_[at] = std::move(tiles_.back());
   tiles_.pop_back();
@@ -65,7 +65,7 @@ void TileCache::evict(std::size_t bytes) noexcept {
   const std::size_t wanted = bytes + max_bytes_ / 16;
   while (!tiles_.empty() && bytes_ + wanted > max_bytes_) {
     hand_ = hand_ >= tiles_.size() ? 0 : hand_;
-    if (tiles_[hand_]->used.exchange(false, std::memory_order_relaxed)) {
+    if (tiles_[hand_]->home->used.exchange(false, std::memory_order_relaxed)) {
       ++hand_;
       continue;
     }
@@ -78,8 +78,8 @@ void TileCache::evict(std::size_t bytes) noexcept {
 
 Result<void> TileCache::insert(TileHome& home, FloatBuffer texels, const Wanted* wanted) {
   const std::scoped_lock lock(mutex_);
-  if (const CachedTile* const there = home.load(std::memory_order_relaxed)) {
-    if (wanted != nullptr) copy_from(*there, *wanted);
+  if (const float* const there = home.texels.load(std::memory_order_relaxed)) {
+    if (wanted != nullptr) copy_from(there, *wanted);
     return {};
   }
   return guard_memory(
@@ -92,8 +92,9 @@ Result<void> TileCache::insert(TileHome& home, FloatBuffer texels, const Wanted*
         evict(tile->bytes());
         bytes_ += tile->bytes();
         ++tiles_read_;
-        if (wanted != nullptr) copy_from(*tile, *wanted);
-        home.store(tile.get(), std::memory_order_seq_cst);
+        if (wanted != nullptr) copy_from(tile->texels.data(), *wanted);
+        home.used.store(true, std::memory_order_relaxed);
+        home.texels.store(tile->texels.data(), std::memory_order_seq_cst);
         tiles_.push_back(std::move(tile));
         return {};
       },
@@ -102,9 +103,9 @@ Result<void> TileCache::insert(TileHome& home, FloatBuffer texels, const Wanted*
 
 bool TileCache::copy(const TileHome& home, const Wanted& wanted) {
   const std::scoped_lock lock(mutex_);
-  const CachedTile* const tile = home.load(std::memory_order_relaxed);
-  if (tile != nullptr) copy_from(*tile, wanted);
-  return tile != nullptr;
+  const float* const texels = home.texels.load(std::memory_order_relaxed);
+  if (texels != nullptr) copy_from(texels, wanted);
+  return texels != nullptr;
 }
 
 void TileCache::forget(std::span<TileHome> homes) noexcept {

@@ -14,16 +14,18 @@
 
 namespace spectile::io {
 
+/// Where a texture looks for a tile.
+struct TileHome {
+  std::atomic<const float*> texels = nullptr;  ///< null for one that is not there
+  std::atomic<bool> used = false;              ///< since the clock's hand came by
+};
+
 /// The texels of a tile, and where its texture looks for them.
 struct CachedTile {
   FloatBuffer texels;
-  std::atomic<CachedTile*>* home = nullptr;
-  std::atomic<bool> used = true;  // since the clock's hand came by
+  TileHome* home = nullptr;
   std::size_t bytes() const noexcept { return texels.size() * sizeof(float); }
 };
-
-/// Where a texture looks for a tile: null for one that is not there.
-using TileHome = std::atomic<CachedTile*>;
 
 /// Tiles are evicted by the clock algorithm: those that were not used since its hand last came by. Who evicts
 /// takes tiles out of their homes, and frees them when the readers of that moment have left. Source of the
@@ -51,12 +53,12 @@ class TileCache {
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
     /// The texels of a tile, or null.
-    static const float* find(const TileHome& home) noexcept {
-      // Ordered before any that follows in the slot's order: see TileCache::evict().
-      CachedTile* const tile = home.load(std::memory_order_seq_cst);
-      if (tile == nullptr) return nullptr;
-      if (!tile->used.load(std::memory_order_relaxed)) tile->used.store(true, std::memory_order_relaxed);
-      return tile->texels.data();
+    static const float* find(TileHome& home) noexcept {
+      // Ordered after the epoch of its slot: see TileCache::wait_for_readers().
+      const float* const texels = home.texels.load(std::memory_order_seq_cst);
+      if (texels != nullptr && !home.used.load(std::memory_order_relaxed))
+        home.used.store(true, std::memory_order_relaxed);
+      return texels;
     }
     void count(std::uint64_t hits, std::uint64_t misses) noexcept {
       slot_->hits.fetch_add(hits, std::memory_order_relaxed);
