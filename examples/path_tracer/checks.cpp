@@ -23,7 +23,7 @@ bool below(const char* subject, double value, double bound) {
 /// where every wavelength carries 1, which colours are not.
 Result<std::vector<double>> mean_radiances(const Scene& scene, const RenderSettings& settings) {
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kVisible));
-  FilmOptions options = film_options(spectra, settings.size);
+  FilmOptions options = film_options(spectra, settings);
   options.spectral = true;
   SPECTILE_ASSIGN(options.bands,
                   Bands::uniform(kFirstVisibleNm, kLastVisibleNm, kLastVisibleNm - kFirstVisibleNm));
@@ -79,7 +79,7 @@ Result<bool> check_furnace() {
   const Rgb color = {0.7F, 0.3F, 0.1F};
   const Scene scene = furnace_scene(color);
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kEven));
-  FilmOptions options = film_options(spectra, settings.size);
+  FilmOptions options = film_options(spectra, settings);
   options.spectral = true;
   SPECTILE_ASSIGN(Film film, Film::create(options));
   SPECTILE_ASSIGN([[maybe_unused]] const Times times, render(scene, spectra, settings, film));

@@ -47,7 +47,6 @@ Result<bool> compare_representations(const RenderSettings& settings) {
   SPECTILE_ASSIGN(const auto white, white_of(scene));
   RenderSettings s = settings;
   s.seed = kReferenceSeed;
-  s.batch = std::min<std::size_t>(s.batch, 512);  // 470 bands of more paths fit into no cache
   SPECTILE_ASSIGN(const auto fine, SpectralScene::create(scene, Representation::kReference));
   SPECTILE_ASSIGN(const auto reference, render(scene, fine, s));
   print_stats(Representation::kReference, reference, s);

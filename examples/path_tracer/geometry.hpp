@@ -41,49 +41,58 @@ struct Ray {
 inline constexpr double kNear = 1e-6;
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A rectangle corner + u * edge_u + v * edge_v; its front is the side of edge_u x edge_v.
-struct Rectangle {
-  Vec3 corner, edge_u, edge_v;
-  Vec3 normal() const noexcept { return normalized(cross(edge_u, edge_v)); }
-  double area() const noexcept { return length(cross(edge_u, edge_v)); }
-  Vec3 at(double u, double v) const noexcept { return corner + u * edge_u + v * edge_v; }
-};
-
-struct Sphere {
-  Vec3 centre;
-  double radius = 1;
-};
-
 /// A distance along a ray, and where on the surface that is, from 0 to 1.
 struct Distance {
   double t = kFar, u = 0, v = 0;
 };
 
-/// Edges must be at right angles.
-inline std::optional<Distance> intersect(const Rectangle& r, const Ray& ray, double far) noexcept {
-  const Vec3 n = cross(r.edge_u, r.edge_v);
-  const double along = dot(ray.direction, n);
-  if (along == 0) return {};
-  const double t = dot(r.corner - ray.origin, n) / along;
-  if (!(t > kNear && t < far)) return {};
-  const Vec3 p = ray.origin + t * ray.direction - r.corner;
-  const double u = dot(p, r.edge_u) / dot(r.edge_u, r.edge_u);
-  const double v = dot(p, r.edge_v) / dot(r.edge_v, r.edge_v);
-  if (u < 0 || u > 1 || v < 0 || v > 1) return {};
-  return Distance{t, u, v};
-}
+/// A rectangle corner + u * edge_u + v * edge_v; its front is the side of edge_u x edge_v. Edges must be at
+/// right angles.
+class Rectangle {
+ public:
+  Rectangle(Vec3 corner, Vec3 edge_u, Vec3 edge_v) noexcept
+      : corner_(corner),
+        edge_u_(edge_u),
+        edge_v_(edge_v),
+        area_(length(cross(edge_u, edge_v))),
+        normal_((1 / area_) * cross(edge_u, edge_v)),
+        to_u_((1 / dot(edge_u, edge_u)) * edge_u),
+        to_v_((1 / dot(edge_v, edge_v)) * edge_v) {}
+  Vec3 normal() const noexcept { return normal_; }
+  double area() const noexcept { return area_; }
+  Vec3 at(double u, double v) const noexcept { return corner_ + u * edge_u_ + v * edge_v_; }
+  std::optional<Distance> intersect(const Ray& ray, double far) const noexcept {
+    const Vec3 to_corner = corner_ - ray.origin;
+    const double t = dot(to_corner, normal_) / dot(ray.direction, normal_);
+    if (!(t > kNear && t < far)) return {};
+    const Vec3 p = t * ray.direction - to_corner;
+    const double u = dot(p, to_u_);
+    const double v = dot(p, to_v_);
+    if (u < 0 || u > 1 || v < 0 || v > 1) return {};
+    return Distance{t, u, v};
+  }
 
-inline std::optional<Distance> intersect(const Sphere& s, const Ray& ray, double far) noexcept {
-  const Vec3 to_centre = s.centre - ray.origin;
-  const double middle = dot(to_centre, ray.direction);
-  const Vec3 miss = to_centre - middle * ray.direction;
-  const double half_squared = s.radius * s.radius - dot(miss, miss);
-  if (half_squared < 0) return {};
-  const double half = std::sqrt(half_squared);
-  const double t = middle - half > kNear ? middle - half : middle + half;
-  if (!(t > kNear && t < far)) return {};
-  return Distance{t, 0, 0};
-}
+ private:
+  Vec3 corner_, edge_u_, edge_v_;
+  double area_;
+  Vec3 normal_, to_u_, to_v_;
+};
+
+struct Sphere {
+  Vec3 centre;
+  double radius = 1;
+  std::optional<Distance> intersect(const Ray& ray, double far) const noexcept {
+    const Vec3 to_centre = centre - ray.origin;
+    const double middle = dot(to_centre, ray.direction);
+    const Vec3 miss = to_centre - middle * ray.direction;
+    const double half_squared = radius * radius - dot(miss, miss);
+    if (half_squared < 0) return {};
+    const double half = std::sqrt(half_squared);
+    const double t = middle - half > kNear ? middle - half : middle + half;
+    if (!(t > kNear && t < far)) return {};
+    return Distance{t, 0, 0};
+  }
+};
 
 /// The direction with cosine-weighted density around a normal. Source of the basis: Duff et al., Building an
 /// Orthonormal Basis, Revisited, JCGT 6(1), 2017.

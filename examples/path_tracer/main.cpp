@@ -17,7 +17,8 @@ constexpr const char* kUsage =
     "  --bands even|planned                 bands that all paths share\n"
     "  --reference                          bands of 1 nm, 360 to 830 nm\n"
     "  --size N  --samples N                pixels a side (128), samples a pixel (16)\n"
-    "  --threads N  --batch LANES           workers (2), paths of each (4096)\n"
+    "  --threads N  --batch LANES           workers (2), paths of each (by the cache)\n"
+    "  --limit COMPONENT                    largest X, Y or Z of a sample; biased, but for no bright dots\n"
     "  --furnace                            a closed box of albedo 0.5 that gives off 1\n"
     "  --stats                              prints where the time went\n"
     "  --compare                            prints errors and times of all representations\n"
@@ -61,6 +62,7 @@ bool read_option(std::string_view name, std::string_view value, Options& out) {
     return read_number(value, out.settings.samples) && out.settings.samples <= 1U << 20U;
   if (name == "--threads") return read_number(value, out.settings.threads) && out.settings.threads <= 1024;
   if (name == "--batch") return read_number(value, out.settings.batch) && out.settings.batch <= 1U << 20U;
+  if (name == "--limit") return read_number(value, out.settings.limit);
   if (name == "--check") return !(out.check = value).empty();
   if (name == "-o") return !(out.output = value).empty();
   return false;
@@ -78,15 +80,13 @@ bool parse(std::span<char*> arguments, Options& out) {
   return true;
 }
 
-/// The lamps' common white becomes that of sRGB, or the whole picture would be orange.
+/// The first lamp's white becomes that of sRGB, so that the other's light has its tint beside it.
 Result<void> write_picture(const Scene& scene, const Film& film, const std::string& path) {
-  std::array<double, 3> white{};
-  for (const Lamp& lamp : scene.lamps) {
-    SPECTILE_ASSIGN(const auto spectrum, named_spectrum(lamp.spectrum));
-    SPECTILE_ASSIGN(const auto sensor, Sensor::named("cie1931"));
-    const auto xyz = sensor.response(spectrum);
-    for (std::size_t c = 0; c < 3; ++c) white[c] += 0.5 * xyz[c] / xyz[1];
-  }
+  SPECTILE_ASSIGN(const auto lamp, named_spectrum(scene.lamps[0].spectrum));
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  std::array<double, 3> white = observer.response(lamp);
+  const double y = white[1];
+  for (double& component : white) component /= y;
   const auto adapted = adaptation_matrix(Adaptation::kBradford, white, chromaticity_to_xyz(kRec709.white));
   SPECTILE_ASSIGN(auto rgb, xyz_of(film));
   SPECTILE_TRY(transform(product(xyz_to_srgb_matrix(), adapted), rgb, rgb));

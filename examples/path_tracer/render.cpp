@@ -9,8 +9,8 @@ namespace tracer {
 namespace {
 
 /// Takes batches until there are none. Which worker gets which does not matter: the film's sums are exact.
-Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::uint64_t paths,
-                   std::size_t batch) {
+Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::uint64_t paths) {
+  const std::size_t batch = wavefront.batch();
   for (;;) {
     const std::uint64_t first = next.fetch_add(batch);
     if (first >= paths) return wavefront.times();
@@ -21,9 +21,10 @@ Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::
 
 }  // namespace
 
-FilmOptions film_options(const SpectralScene& spectra, std::uint32_t size) {
+FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& settings) {
   FilmOptions options;
-  options.width = options.height = static_cast<int>(size);
+  options.width = options.height = static_cast<int>(settings.size);
+  options.maximum_component = settings.limit;
   if (const Bands* bands = spectra.axis().bands()) {
     options.input = FilmInput::kBands;
     options.bands = *bands;
@@ -43,7 +44,7 @@ Result<Times> render(const Scene& scene, const SpectralScene& spectra, const Ren
   std::vector<Result<Times>> results(settings.threads, Times{});
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < settings.threads; ++i) {
-    threads.emplace_back([&, i] { results[i] = work(wavefronts[i], next, paths, settings.batch); });
+    threads.emplace_back([&, i] { results[i] = work(wavefronts[i], next, paths); });
   }
   for (std::thread& thread : threads) thread.join();
   Times sum;
@@ -57,7 +58,7 @@ Result<Times> render(const Scene& scene, const SpectralScene& spectra, const Ren
 }
 
 Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings.size)));
+  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
   const auto start = std::chrono::steady_clock::now();
   SPECTILE_ASSIGN(const Times times, render(scene, spectra, settings, film));
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -6,7 +6,7 @@
 namespace tracer {
 
 /// The film for a representation: XYZ of the CIE 1931 observer.
-FilmOptions film_options(const SpectralScene& spectra, std::uint32_t size);
+FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& settings);
 
 /// Adds all samples of the settings to a film.
 Result<Times> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings,

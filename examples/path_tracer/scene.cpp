@@ -21,25 +21,23 @@ std::int64_t cell(double x) {
   return static_cast<std::int64_t>(std::floor(x));
 }
 
-/// A colour of a chart: hues along u, three lightnesses along v.
-Rgb patch(std::int64_t column, std::int64_t row, double columns) {
-  const double hue = kTurn * static_cast<double>(column) / columns;
-  const double light = row == 0 ? 0.22 : row == 1 ? 0.42 : 0.68;
-  const double chroma = row == 1 ? 0.95 : 0.8;
-  const auto channel = [&](double turn) {
-    return static_cast<float>(light * (1 - chroma * (0.5 - 0.5 * std::cos(hue - turn * kTurn))));
+/// A colour of a chart: hues along u, lighter along v, the two lowest rows less saturated.
+Rgb patch(double turn, int row) {
+  constexpr double kLight[] = {0.10, 0.20, 0.32, 0.48, 0.60, 0.70};
+  constexpr double kChroma[] = {0.90, 0.95, 0.95, 0.92, 0.80, 0.60};
+  const auto channel = [&](double primary) {
+    const double share = 0.5 - 0.5 * std::cos(kTurn * (turn - primary));
+    return static_cast<float>(kLight[row] * (1 - kChroma[row] * share));
   };
   return {channel(0), channel(1.0 / 3), channel(2.0 / 3)};
 }
 
 Rgb chart(const Surface& s, double u, double v) {
-  const double columns = s.repeats;
-  const double x = u * columns;
-  const double y = v * 3;
-  const double dx = std::abs(x - std::floor(x) - 0.5);
-  const double dy = std::abs(y - std::floor(y) - 0.5);
-  if (std::max(dx, dy) > 0.42) return s.first;
-  return patch(cell(x), cell(y), columns);
+  constexpr double kRows = 6;
+  const double x = std::min(u, 0.999999) * s.repeats;
+  const double y = std::min(v, 0.999999) * kRows;
+  if (std::max(std::abs(x - std::floor(x) - 0.5), std::abs(y - std::floor(y) - 0.5)) > 0.4) return s.first;
+  return patch(std::floor(x) / s.repeats, static_cast<int>(y));
 }
 
 Rgb bricks(const Surface& s, double u, double v) {
@@ -70,7 +68,7 @@ Hit finished(const Ray& ray, Hit hit) {
 Hit trace(const Scene& scene, const Ray& ray) {
   Hit hit;
   for (const Surface& surface : scene.surfaces) {
-    const auto d = std::visit([&](const auto& shape) { return intersect(shape, ray, hit.t); }, surface.shape);
+    const auto d = std::visit([&](const auto& shape) { return shape.intersect(ray, hit.t); }, surface.shape);
     if (d) hit = {&surface, d->t, d->u, d->v, {}, {}, true};
   }
   return hit.surface != nullptr ? finished(ray, hit) : hit;
@@ -78,7 +76,7 @@ Hit trace(const Scene& scene, const Ray& ray) {
 
 bool blocked(const Scene& scene, const Ray& ray, double far) {
   return std::ranges::any_of(scene.surfaces, [&](const Surface& surface) {
-    return std::visit([&](const auto& shape) { return intersect(shape, ray, far).has_value(); },
+    return std::visit([&](const auto& shape) { return shape.intersect(ray, far).has_value(); },
                       surface.shape);
   });
 }
@@ -108,18 +106,18 @@ Scene box_scene() {
   scene.lamps = {Lamp{"FL11", 26}, Lamp{"A", 26}};
   // Floor, ceiling, back, left, right.
   scene.surfaces = {
-      wall({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, Pattern::kChecker, {0.72F, 0.70F, 0.66F}, {0.60F, 0.58F, 0.55F},
+      wall({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, Pattern::kChecker, {0.60F, 0.60F, 0.60F}, {0.36F, 0.36F, 0.36F},
            8),
-      wall({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, Pattern::kPlain, {0.75F, 0.75F, 0.75F}, {}, 1),
-      wall({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, Pattern::kChart, {0.70F, 0.70F, 0.68F}, {}, 8),
-      wall({-1, 0, 1}, {0, 0, -2}, {0, 2, 0}, Pattern::kBricks, {0.60F, 0.14F, 0.08F}, {0.55F, 0.52F, 0.48F},
+      wall({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, Pattern::kPlain, {0.70F, 0.70F, 0.70F}, {}, 1),
+      wall({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, Pattern::kChart, {0.70F, 0.70F, 0.70F}, {}, 8),
+      wall({-1, 0, 1}, {0, 0, -2}, {0, 2, 0}, Pattern::kBricks, {0.62F, 0.16F, 0.09F}, {0.62F, 0.60F, 0.56F},
            6),
-      wall({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, Pattern::kPlanks, {0.10F, 0.38F, 0.30F}, {0.16F, 0.50F, 0.42F},
+      wall({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, Pattern::kPlanks, {0.06F, 0.30F, 0.26F}, {0.20F, 0.48F, 0.42F},
            8),
-      panel({-0.75, 1.999, -0.45}, {0.12, 0, 0}, {0, 0, 0.9}, 0),
-      panel({0.45, 1.999, -0.15}, {0.33, 0, 0}, {0, 0, 0.33}, 1),
-      {Sphere{{-0.45, 0.42, -0.35}, 0.42}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
-      {Sphere{{0.38, 0.42, 0.25}, 0.36}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
+      panel({-0.85, 1.999, -0.5}, {0.22, 0, 0}, {0, 0, 1.0}, 0),
+      panel({0.45, 1.999, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 1),
+      {Sphere{{-0.42, 0.45, -0.35}, 0.45}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
+      {Sphere{{0.40, 0.55, 0.30}, 0.40}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
   };
   const double half = 0.36;
   scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {half, 0, 0}, {0, half, 0}};
@@ -128,7 +126,7 @@ Scene box_scene() {
 
 Scene furnace_scene(Rgb albedo) {
   Scene scene = box_scene();
-  scene.surfaces.resize(5);
+  scene.surfaces.erase(scene.surfaces.begin() + 5, scene.surfaces.end());
   scene.surfaces.push_back(wall({-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, Pattern::kPlain, albedo, {}, 1));
   for (Surface& s : scene.surfaces) {
     s.pattern = Pattern::kPlain;

@@ -20,6 +20,11 @@ void swap_lanes(SampledSpectra& batch, std::size_t a, std::size_t b) {
   for (std::size_t k = 0; k < count; ++k) std::swap(batch.at(a, k), batch.at(b, k));
 }
 
+void copy_lane(SampledSpectra& batch, std::size_t from, std::size_t to) {
+  const std::size_t count = batch.axis().count();
+  for (std::size_t k = 0; k < count; ++k) batch.at(to, k) = batch.at(from, k);
+}
+
 bool bit_of(const LaneMask& mask, std::size_t lane) {
   return ((mask[lane / 64] >> (lane % 64)) & 1U) != 0;
 }
@@ -52,6 +57,10 @@ void Wavefront::find_lights() {
 }
 
 Result<void> Wavefront::allocate() {
+  // Where nothing else is asked for, a batch of spectra takes at most 64 KiB, so that some fit into a cache.
+  constexpr std::size_t kFloats = 16384;
+  const std::size_t blocks = std::max<std::size_t>(1, kFloats / (kLanesPerBlock * spectra_->axis().count()));
+  if (settings_.batch == 0) settings_.batch = blocks * kLanesPerBlock;
   const std::size_t lanes = settings_.batch;
   paths_.resize(lanes);
   x_.resize(lanes);
@@ -185,12 +194,12 @@ void Wavefront::compact() {
     std::swap(paths_[lane], paths_[last]);
     std::swap(x_[lane], x_[last]);
     std::swap(y_[lane], y_[last]);
-    swap_lanes(s_.throughput, lane, last);
+    copy_lane(s_.throughput, last, lane);
     swap_lanes(s_.radiance, lane, last);
     if (spectra_->on_bands()) continue;
     swap_lanes(s_.wavelengths.lambda_nm, lane, last);
     swap_lanes(s_.wavelengths.density, lane, last);
-    for (SampledSpectra& lamp : s_.lamps) swap_lanes(lamp, lane, last);
+    for (SampledSpectra& lamp : s_.lamps) copy_lane(lamp, last, lane);
   }
 }
 

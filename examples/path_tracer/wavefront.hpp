@@ -18,10 +18,11 @@ struct RenderSettings {
   std::uint32_t first_sample = 0;
   std::uint32_t seed = 0;
   std::size_t threads = 2;
-  std::size_t batch = 4096;         ///< lanes
-  std::uint32_t max_depth = 24;     ///< surfaces along a path
-  std::uint32_t roulette_from = 3;  ///< bounces before Russian roulette; kNever for none
-  bool next_event = true;           ///< false: lamps count where paths hit them by chance
+  std::size_t batch = 0;                                 ///< lanes; 0: as many as suit a cache
+  std::uint32_t max_depth = 24;                          ///< surfaces along a path
+  std::uint32_t roulette_from = 3;                       ///< bounces before Russian roulette; kNever for none
+  float limit = std::numeric_limits<float>::infinity();  ///< of a sample's X, Y and Z
+  bool next_event = true;  ///< false: lamps count where paths hit them by chance
 };
 
 /// Seconds of a worker, or of all together.
@@ -39,6 +40,7 @@ class Wavefront {
   /// Traces the paths first to first + count, and adds them to the film. Paths are numbered pixel by pixel.
   Result<void> run(std::uint64_t first, std::size_t count);
   const Times& times() const noexcept { return times_; }
+  std::size_t batch() const noexcept { return settings_.batch; }
 
  private:
   struct Path {
