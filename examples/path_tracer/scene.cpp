@@ -103,7 +103,7 @@ Rgb albedo(const Surface& surface, double u, double v) {
 
 Scene box_scene() {
   Scene scene;
-  scene.lamps = {Lamp{"FL11", 26}, Lamp{"A", 26}};
+  scene.lamps = {Lamp{"FL11", 36}, Lamp{"A", 28}};
   // Floor, ceiling, back, left, right.
   scene.surfaces = {
       wall({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, Pattern::kChecker, {0.60F, 0.60F, 0.60F}, {0.36F, 0.36F, 0.36F},
@@ -114,10 +114,10 @@ Scene box_scene() {
            6),
       wall({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, Pattern::kPlanks, {0.06F, 0.30F, 0.26F}, {0.20F, 0.48F, 0.42F},
            8),
-      panel({-0.85, 1.999, -0.5}, {0.22, 0, 0}, {0, 0, 1.0}, 0),
-      panel({0.45, 1.999, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 1),
+      panel({-0.62, 1.999, -0.55}, {0.14, 0, 0}, {0, 0, 1.1}, 0),
+      panel({0.45, 1.999, -0.2}, {0.34, 0, 0}, {0, 0, 0.34}, 1),
       {Sphere{{-0.42, 0.45, -0.35}, 0.45}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
-      {Sphere{{0.40, 0.55, 0.30}, 0.40}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
+      {Sphere{{0.38, 0.62, 0.30}, 0.39}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
   };
   const double half = 0.36;
   scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {half, 0, 0}, {0, half, 0}};
