@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <ctime>
 #include <thread>
 
 namespace tracer {
@@ -59,10 +60,10 @@ Result<Times> render(const Scene& scene, const SpectralScene& spectra, const Ren
 
 Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
   SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   SPECTILE_ASSIGN(const Times times, render(scene, spectra, settings, film));
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return Rendered{std::move(film), times, wall};
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return Rendered{std::move(film), times, seconds};
 }
 
 Result<ColorLanes> xyz_of(const Film& film) {

@@ -12,11 +12,11 @@ FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& set
 Result<Times> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings,
                      Film& film);
 
-/// A film of its own, and the time that it took.
+/// A film of its own, and the time that it took: the processor's, which other programs do not lengthen much.
 struct Rendered {
   Film film;
-  Times times;      ///< of all workers together
-  double wall = 0;  ///< seconds
+  Times times;         ///< of all workers together
+  double seconds = 0;  ///< of the processor, likewise
 };
 Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings);
 

@@ -10,7 +10,7 @@
 
 namespace tracer {
 
-/// What is rendered, and in which pieces; the picture depends on neither threads nor batch.
+/// A rendering's size and samples, and its pieces: the picture depends on neither threads nor batch.
 struct RenderSettings {
   static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t size = 128;  ///< pixels a side
