@@ -106,7 +106,7 @@ Scene box_scene() {
   scene.lamps = {Lamp{"FL11", 36}, Lamp{"A", 28}};
   // Floor, ceiling, back, left, right.
   scene.surfaces = {
-      wall({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, Pattern::kChecker, {0.60F, 0.60F, 0.60F}, {0.36F, 0.36F, 0.36F},
+      wall({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, Pattern::kChecker, {0.52F, 0.52F, 0.52F}, {0.36F, 0.36F, 0.36F},
            8),
       wall({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, Pattern::kPlain, {0.70F, 0.70F, 0.70F}, {}, 1),
       wall({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, Pattern::kChart, {0.70F, 0.70F, 0.70F}, {}, 8),
@@ -116,8 +116,8 @@ Scene box_scene() {
            8),
       panel({-0.62, 1.999, -0.55}, {0.14, 0, 0}, {0, 0, 1.1}, 0),
       panel({0.45, 1.999, -0.2}, {0.34, 0, 0}, {0, 0, 0.34}, 1),
-      {Sphere{{-0.42, 0.45, -0.35}, 0.45}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
-      {Sphere{{0.38, 0.62, 0.30}, 0.39}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
+      {Sphere{{-0.48, 0.42, -0.30}, 0.42}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
+      {Sphere{{0.32, 0.66, 0.12}, 0.38}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
   };
   const double half = 0.36;
   scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {half, 0, 0}, {0, half, 0}};
