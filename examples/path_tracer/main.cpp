@@ -73,7 +73,7 @@ bool parse(std::span<char*> arguments, Options& out) {
     const std::string_view name = arguments[i];
     if (read_flag(name, out)) continue;
     if (i + 1 == arguments.size() || !read_option(name, arguments[++i], out)) {
-      std::fprintf(stderr, "cannot read the option %s\n%s", std::string(name).c_str(), kUsage);
+      (void)std::fprintf(stderr, "cannot read the option %s\n%s", std::string(name).c_str(), kUsage);
       return false;
     }
   }
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   if (!parse(std::span(argv, static_cast<std::size_t>(argc)).subspan(1), options)) return 2;
   const auto good = run(options);
   if (!good) {
-    std::fprintf(stderr, "%s\n", good.error().message.c_str());
+    (void)std::fprintf(stderr, "%s\n", good.error().message.c_str());
     return 2;
   }
   return *good ? 0 : 1;

@@ -30,10 +30,11 @@ Result<Spectrum> held(const std::string& name) {
 
 /// The lamps' sum, to draw wavelengths in proportion to.
 Result<Spectrum> sum_of(const Spectrum& a, const Spectrum& b) {
+  constexpr int kFirst = static_cast<int>(kFirstVisibleNm);
+  constexpr int kLast = static_cast<int>(kLastVisibleNm);
   std::vector<double> values;
-  for (double nm = kFirstVisibleNm; nm <= kLastVisibleNm; ++nm) values.push_back(a(nm) + b(nm));
-  SPECTILE_ASSIGN(auto sum,
-                  DenselySampledSpectrum::from_values(static_cast<int>(kFirstVisibleNm), std::move(values)));
+  for (int nm = kFirst; nm <= kLast; ++nm) values.push_back(a(nm) + b(nm));
+  SPECTILE_ASSIGN(auto sum, DenselySampledSpectrum::from_values(kFirst, std::move(values)));
   return Spectrum(std::move(sum));
 }
 

@@ -84,8 +84,10 @@ void Wavefront::aim(std::uint64_t first, std::size_t count) {
     const Random random(pixel, sample, settings_.seed);
     const std::uint32_t size = settings_.size;
     // A sum that float rounds up to the next pixel would be in its neighbour.
-    const double x = std::min(pixel % size + random(kPixelX), pixel % size + 0.999);
-    const double y = std::min(pixel / size + random(kPixelY), pixel / size + 0.999);
+    const double column = pixel % size;
+    const std::uint32_t line = pixel / size;
+    const double x = column + std::min(random(kPixelX), 0.999);
+    const double y = line + std::min(random(kPixelY), 0.999);
     x_[i] = static_cast<float>(x);
     y_[i] = static_cast<float>(y);
     u_[i] = static_cast<float>(random(kWavelength));
