@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bench/baseline/aos_baseline.hpp"
-#include "bench/operations/textures.hpp"
+#include "bench/operations/own_wavelengths/textures.hpp"
 #include "src/base/errors.hpp"
 
 namespace spectile::measure {

@@ -200,6 +200,9 @@ void add_arithmetic(std::vector<Operation>& to);
 Result<void> add_reductions(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_upsampling(std::vector<Operation>& to, const Bands& bands);
 Result<void> add_sigmoids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler);
+/// Of sigmoids at single wavelengths.
+Result<void> add_sigmoids_at_wavelengths(std::vector<Operation>& to,
+                                         const std::shared_ptr<const Upsampler>& upsampler);
 void add_grids(std::vector<Operation>& to, const std::shared_ptr<const Upsampler>& upsampler,
                const std::shared_ptr<const Relighter>& relighter);
 Result<void> add_wavelengths(std::vector<Operation>& to);

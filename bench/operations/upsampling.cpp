@@ -10,7 +10,7 @@
 #include <spectile/upsampling/upsample.hpp>
 
 #include "bench/operations/operation.hpp"
-#include "bench/operations/textures.hpp"
+#include "bench/operations/own_wavelengths/textures.hpp"
 #include "src/base/errors.hpp"
 #include "src/upsampling/method_rows.hpp"
 #include "src/upsampling/own_wavelengths/wavelength_tables.hpp"

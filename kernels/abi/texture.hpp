@@ -10,7 +10,7 @@ inline constexpr int kTextureTileLog2 = 6;
 inline constexpr std::int32_t kTextureTile = 1 << kTextureTileLog2;
 inline constexpr std::size_t kTextureTileTexels = std::size_t{1} << (2 * kTextureTileLog2);
 
-/// What lies beyond the edges.
+/// The texels beyond the edges.
 enum class TextureWrap : std::int32_t { kRepeat, kMirror, kClamp, kBlack };
 
 /// A mip level's numbers: its width and height, at most 2^18; its tiles side by side; the first one's number.

@@ -48,7 +48,7 @@ ROOMS = [
     ("io/write", "src/io/write",
      "base spectra abi dispatch lanes color image io/exr io/channels io/frame io/stages"),
     ("bench", "include/spectile/bench bench",
-     "base data spectra radiometry abi reference dispatch lanes color upsampling oracle planner film scene"),
+     "base data spectra radiometry abi reference dispatch lanes color upsampling oracle planner film scene io/texture"),
     ("umbrella", "include/spectile/spectile.hpp",
      "base spectra radiometry dispatch lanes color upsampling planner film scene image"),
     ("cli", "src/cli",

@@ -16,7 +16,7 @@
 
 namespace spectile {
 
-/// What lies beyond a texture's edges.
+/// The texels beyond a texture's edges.
 enum class TextureWrap { kRepeat, kMirror, kClamp, kBlack };
 
 /// How a lane's sample is made of texels.

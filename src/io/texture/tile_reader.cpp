@@ -78,7 +78,7 @@ TileReader::Range TileReader::range_of(std::int32_t tile, std::size_t max_tiles)
   return out;
 }
 
-/// What is decoded for line y of the range's tiles.
+/// The strip that is decoded for line y of the range's tiles.
 TileReader::Window TileReader::decoded(const Range& range, int y) const {
   const int unit = decoded_lines();
   const int first = y / unit * unit;

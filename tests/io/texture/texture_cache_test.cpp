@@ -20,7 +20,7 @@ class TextureCaches : public testing::Test {
     upsample_to(Store::kCoefficients, folder_ / "in.exr", folder_ / "tiles.exr", options);
   }
   SampledSpectra want(std::size_t lanes, std::uint32_t seed) const {
-    return sampled(opened(folder_ / "lines.exr"), points_around(lanes, seed).at(),
+    return sampled(opened(folder_ / "lines.exr"), points_about(lanes, seed).at(),
                    wavelengths_of(lanes, {450, 550}), {});
   }
   const TempFolder folder_;
@@ -57,7 +57,7 @@ TEST_F(TextureCaches, ABoundIsNeverExceededAndChangesNoSample) {
       const auto cache = *TextureCache::create(bytes);
       const SpectralTexture texture = opened(folder_ / name, cache);
       const SampledSpectra got =
-          sampled(texture, points_around(lanes, 11).at(), wavelengths_of(lanes, {450, 550}), {}, {1});
+          sampled(texture, points_about(lanes, 11).at(), wavelengths_of(lanes, {450, 550}), {}, {1});
       EXPECT_TRUE(same_lanes(got, expected)) << name << " in " << bytes;
       const TextureCacheStats stats = cache.stats();
       EXPECT_LE(stats.bytes, std::max(bytes, kTileBytes));
@@ -85,7 +85,7 @@ TEST_F(TextureCaches, ThreadsThatShareASmallCacheGetTheirSamples) {
         SampledSpectra out = own_batch(lanes, 2);
         const auto done =
             (t % 2 == 0 ? lines : tiles)
-                .sample(points_around(lanes, seed).at(), wavelengths_of(lanes, {450, 550}), out, {}, {1});
+                .sample(points_about(lanes, seed).at(), wavelengths_of(lanes, {450, 550}), out, {}, {1});
         if (!done || !same_lanes(out, expected[seed])) ++wrong;
         if (cache.stats().bytes > 4 * kTileBytes) ++wrong;
       }
@@ -99,7 +99,7 @@ TEST_F(TextureCaches, ThreadsThatShareASmallCacheGetTheirSamples) {
 TEST_F(TextureCaches, ATextureTakesItsTilesAlong) {
   const auto cache = *TextureCache::create();
   const auto fill = [&](const SpectralTexture& texture) {
-    sampled(texture, points_around(500, 1).at(), wavelengths_of(500, {500}), {}, {1});
+    sampled(texture, points_about(500, 1).at(), wavelengths_of(500, {500}), {}, {1});
     return cache.stats().tiles;
   };
   const SpectralTexture stays = opened(folder_ / "lines.exr", cache);

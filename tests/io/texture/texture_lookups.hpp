@@ -20,7 +20,7 @@ struct Points {
 };
 
 /// Anywhere from 1.5 widths before the texture to 1.5 behind it.
-inline Points points_around(std::size_t lanes, std::uint32_t seed) {
+inline Points points_about(std::size_t lanes, std::uint32_t seed) {
   const Floats u = plain_floats(blocks_for(lanes) * kLanesPerBlock, seed, -1.5F, 2.5F);
   const Floats v = plain_floats(u.size(), seed + 1, -1.5F, 2.5F);
   Points out(lanes);

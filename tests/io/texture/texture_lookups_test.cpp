@@ -164,7 +164,7 @@ TEST_F(TextureLookups, SamplesMayReplaceTheirWavelengths) {
     write_scanlines(folder_ / "in.exr", picture);
     upsample_to(Store::kCoefficients, folder_ / "in.exr", folder_ / "t.exr", options_of(kind));
     const SpectralTexture texture = opened(folder_ / "t.exr");
-    const Points points = points_around(200, 9);
+    const Points points = points_about(200, 9);
     SampledSpectra batch = wavelengths_of(200, {450, 600});
     const SampledSpectra want = sampled(texture, points.at(), batch, {});
     ASSERT_TRUE(texture.sample(points.at(), batch, batch));

@@ -88,7 +88,7 @@ TEST_P(TextureSample, BilinearIsTheMeanOfTheTexelsSpectra) {
 }
 
 TEST_P(TextureSample, BothFormsAgreeOnBandsAndAtOwnWavelengths) {
-  const Points points = points_around(500, 5);
+  const Points points = points_about(500, 5);
   const SpectralTexture full = opened(folder_ / "full.exr");
   const SpectralTexture compact = opened(folder_ / "compact.exr");
   auto on_bands = *SampledSpectra::create(full.bands(), 500);
@@ -108,7 +108,7 @@ TEST_P(TextureSample, BothFormsAgreeOnBandsAndAtOwnWavelengths) {
 }
 
 TEST_P(TextureSample, AnyInstructionSetThreadCountAndTileGivesTheSameBits) {
-  const Points points = points_around(3000, 7);
+  const Points points = points_about(3000, 7);
   const SampledSpectra lambda = wavelengths_of(3000, {405, 500, 555.5, 700});
   const SpectralTexture texture = opened(folder_ / "compact.exr");
   const std::string before(*active_isa());

@@ -1,6 +1,6 @@
 // Lookups in textures, of tiles that the cache has: a small texture of noise, bilinear, at lanes' own
 // wavelengths.
-#include "bench/operations/textures.hpp"
+#include "bench/operations/own_wavelengths/textures.hpp"
 
 #include <algorithm>
 #include <cmath>
