@@ -31,6 +31,38 @@ void inspect(const std::string& path) {
                 "the pixel asked for has a value a band or channel");
 }
 
+/// The same lookups through a cache of one tile and one of all.
+void lookups(const std::string& path) {
+  constexpr std::size_t kLanes = 70;
+  auto u = ScalarLanes::create(kLanes);
+  auto v = ScalarLanes::create(kLanes);
+  const auto axis = SpectralAxis::own_wavelengths(2);
+  if (!u || !v || !axis) return;
+  auto lambda = SampledSpectra::create(*axis, kLanes);
+  auto first = SampledSpectra::create(*axis, kLanes);
+  auto second = SampledSpectra::create(*axis, kLanes);
+  if (!lambda || !first || !second) return;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    (*u)[i] = static_cast<float>(i * 37 % 101) / 50 - 0.5F;
+    (*v)[i] = static_cast<float>(i * 53 % 97) / 48 - 0.5F;
+    for (std::size_t k = 0; k < 2; ++k) lambda->at(i, k) = static_cast<float>(380 + 6 * i + 3 * k);
+  }
+  const TexturePoints at = {.u = *u, .v = *v, .level = *v};
+  for (auto* const samples : {&*first, &*second}) {
+    const auto cache = TextureCache::create(samples == &*first ? 0 : TextureCache::kDefaultBytes);
+    if (!cache) return;
+    const auto texture = SpectralTexture::open(path, TextureOptions{.threads = 1, .cache = *cache});
+    if (!fuzz::is_value(texture) || !fuzz::is_value(texture->sample(at, *lambda, *samples, {}, {1}))) return;
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const float a = first->at(i, k);
+      const float b = second->at(i, k);
+      fuzz::require(a == b || (std::isnan(a) && std::isnan(b)), "a sample does not depend on the cache");
+    }
+  }
+}
+
 void texture(const std::string& path) {
   const auto opened = SpectralTexture::open(path, 1);
   if (!fuzz::is_value(opened)) return;
@@ -83,6 +115,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     inspect(folder.input());
     rgb(folder.input());
     texture(folder.input());
+    lookups(folder.input());
     fuzz::is_value(validate_image(folder.input(), 1));
     // Takes several times as long as the others together.
     if (fuzz::Choices(bytes).one_in(4)) verify(folder.input());

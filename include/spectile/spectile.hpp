@@ -26,6 +26,7 @@
 #include <spectile/isa.hpp>
 #include <spectile/lanes/arithmetic.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
+#include <spectile/lanes/sampled_spectrum.hpp>
 #include <spectile/lanes/spectral_axis.hpp>
 #include <spectile/lanes/spectrum_sampler.hpp>
 #include <spectile/lanes/wavelength_distribution.hpp>

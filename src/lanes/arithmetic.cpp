@@ -168,6 +168,15 @@ Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpe
   });
 }
 
+Result<void> multiply_add(SampledSpectraView a, LanesView factor, SampledSpectraView c,
+                          SampledSpectraSpan out, const Execution& execution) {
+  return with_lanes<2>({a, c}, factor, out, execution,
+                       [&](const KernelTable& k, std::size_t at, std::size_t lane, std::size_t blocks) {
+                         k.multiply_add_lanes(out.data + at, a.data + at, factor.data + lane, c.data + at,
+                                              out.axis.count(), blocks);
+                       });
+}
+
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
                   const Execution& execution) {
   return binary(&KernelTable::lerp, a, b, out, execution, t);
@@ -202,7 +211,7 @@ Result<void> transmittance(SampledSpectraView sigma, LanesView distance, Sampled
 Result<LaneMask> update_throughput(SampledSpectraView throughput, SampledSpectraView scattering,
                                    LanesView density, LanesView u, SampledSpectraSpan out,
                                    const Execution& execution) {
-  const bool roulette = u.lanes != 0 || u.data != nullptr;
+  const bool roulette = u.lanes != 0;
   if (roulette) {
     SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes));
     SPECTILE_TRY(shape::aligned(u.data));

@@ -101,7 +101,9 @@ Result<Even> make_even_table(const DenselySampledSpectrum& spectrum) {
 
 /// A distribution's kernel, by kind, and its tables.
 struct SpectrumSampler::Tables {
-  enum class Kind { kConstant, kKnots, kEven, kPlanck, kGaussians, kSigmoid } kind = Kind::kConstant;
+  enum class Kind { kConstant, kKnots, kEven, kPlanck, kGaussians, kSigmoid, kCombined };
+  struct Term;
+  Kind kind = Kind::kConstant;
   float constant = 0;
   Knots knots;  // also the white of a sigmoid's light
   Even even;
@@ -113,6 +115,10 @@ struct SpectrumSampler::Tables {
   float scale = 1;
   bool white = false;
   std::optional<Observer> observer;  // of a sigmoid's functions
+  std::vector<Term> terms;           // of a combined one
+
+  Result<void> set(const CombinedSpectrum& s);
+  void combined_row(const KernelTable& kernels, const float* lambda_nm, float* out, std::size_t n) const;
 
   Result<void> set(const ConstantSpectrum& s) {
     if (!fits_float(s.value()) && !std::isnan(s.value())) {
@@ -200,6 +206,9 @@ struct SpectrumSampler::Tables {
       case Kind::kSigmoid:
         sigmoid_row(kernels, lambda_nm, out, n);
         break;
+      case Kind::kCombined:
+        combined_row(kernels, lambda_nm, out, n);
+        break;
     }
   }
 
@@ -228,6 +237,50 @@ struct SpectrumSampler::Tables {
     }
   }
 };
+
+struct SpectrumSampler::Tables::Term {
+  float factor = 1;
+  std::vector<std::shared_ptr<const Tables>> of;
+};
+
+Result<void> SpectrumSampler::Tables::set(const CombinedSpectrum& s) {
+  kind = Kind::kCombined;
+  for (const CombinedSpectrum::Term& term : s.terms()) {
+    if (!fits_float(term.factor))
+      return make_error(ErrorCode::kBadArgument, "the factor {} is beyond the range of float", term.factor);
+    Term out = {static_cast<float>(term.factor), {}};
+    for (const Spectrum& part : term.of) {
+      const auto tables = std::make_shared<Tables>();
+      SPECTILE_TRY(std::visit([&](const auto& of) { return tables->set(of); }, part.kind()));
+      out.of.push_back(tables);
+    }
+    terms.push_back(std::move(out));
+  }
+  return {};
+}
+
+/// Block by block: each term's product times its factor, added up in order.
+void SpectrumSampler::Tables::combined_row(const KernelTable& kernels, const float* lambda_nm, float* out,
+                                           std::size_t n) const {
+  alignas(64) float lambda[kLanesPerBlock];
+  alignas(64) float sum[kLanesPerBlock];
+  alignas(64) float product[kLanesPerBlock];
+  alignas(64) float part[kLanesPerBlock];
+  for (std::size_t at = 0; at < n; at += kLanesPerBlock) {
+    // A copy: `out` may be the wavelengths.
+    std::copy_n(lambda_nm + at, kLanesPerBlock, lambda);
+    for (std::size_t i = 0; i < kLanesPerBlock; ++i) sum[i] = std::isnan(lambda[i]) ? lambda[i] : 0.0F;
+    for (const Term& term : terms) {
+      std::fill_n(product, kLanesPerBlock, term.factor);
+      for (const auto& of : term.of) {
+        of->row(kernels, lambda, part, kLanesPerBlock);
+        kernels.multiply(product, product, part, kLanesPerBlock);
+      }
+      kernels.add(sum, sum, product, kLanesPerBlock);
+    }
+    std::copy_n(sum, kLanesPerBlock, out + at);
+  }
+}
 
 Result<SpectrumSampler> SpectrumSampler::create(const Spectrum& spectrum) {
   auto tables = std::make_shared<Tables>();

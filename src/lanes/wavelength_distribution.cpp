@@ -148,18 +148,20 @@ double WavelengthDistribution::density(double lambda_nm) const noexcept {
 }
 
 Result<void> sample_wavelengths(const WavelengthDistribution& distribution, LanesView u,
-                                SampledWavelengths& out, const Execution& execution) {
-  SPECTILE_TRY(shape::own_wavelengths(out.axis()));
+                                SampledWavelengthsSpan out, const Execution& execution) {
+  SPECTILE_TRY(shape::own_wavelengths(out.lambda_nm.axis));
   SPECTILE_TRY(shape::same(out.lambda_nm, out.density));
-  SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
+  SPECTILE_TRY(shape::same_lanes(u.lanes, out.lambda_nm.lanes));
   SPECTILE_TRY(shape::aligned(u.data));
+  SPECTILE_TRY(shape::aligned(out.lambda_nm.data));
+  SPECTILE_TRY(shape::aligned(out.density.data));
   SPECTILE_ASSIGN(const auto kernels, dispatch::active());
   const kernels::BinTable& table = WavelengthDistributionAccess::tables(distribution).table;
   const SampledSpectraSpan lambda = out.lambda_nm;
   const SampledSpectraSpan density = out.density;
   tiles::for_blocks(blocks_for(u.lanes), execution, [&](std::size_t first, std::size_t count) {
     kernels->table_wavelengths(lambda.row(first, 0), density.row(first, 0), u.data + first * kLanesPerBlock,
-                               table, out.count(), count);
+                               table, lambda.axis.count(), count);
   });
   return {};
 }

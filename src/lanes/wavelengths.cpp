@@ -1,5 +1,6 @@
 // Sampled wavelengths in batches: drawing and terminating them.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <spectile/lanes/wavelengths.hpp>
 
@@ -38,12 +39,14 @@ Result<SampledWavelengths> SampledWavelengths::create(std::size_t lanes, std::si
   return SampledWavelengths{std::move(lambda), std::move(density)};
 }
 
-Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
+Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengthsSpan out,
                                 double first_nm, double last_nm, const Execution& execution) {
-  SPECTILE_TRY(shape::own_wavelengths(out.axis()));
+  SPECTILE_TRY(shape::own_wavelengths(out.lambda_nm.axis));
   SPECTILE_TRY(shape::same(out.lambda_nm, out.density));
-  SPECTILE_TRY(shape::same_lanes(u.lanes, out.lanes()));
+  SPECTILE_TRY(shape::same_lanes(u.lanes, out.lambda_nm.lanes));
   SPECTILE_TRY(shape::aligned(u.data));
+  SPECTILE_TRY(shape::aligned(out.lambda_nm.data));
+  SPECTILE_TRY(shape::aligned(out.density.data));
   if (!(first_nm >= 1e-6 && last_nm - first_nm >= 1e-6 && last_nm <= 1e9)) {
     return make_error(ErrorCode::kBadArgument, "wavelengths cannot be drawn from {} to {} nm", first_nm,
                       last_nm);
@@ -60,29 +63,34 @@ Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, Sample
   const SampledSpectraSpan lambda = out.lambda_nm;
   const SampledSpectraSpan pdf = out.density;
   tiles::for_blocks(blocks_for(u.lanes), execution, [&](std::size_t first, std::size_t count) {
-    kernel(lambda.row(first, 0), pdf.row(first, 0), u.data + first * kLanesPerBlock, density, out.count(),
-           count);
+    kernel(lambda.row(first, 0), pdf.row(first, 0), u.data + first * kLanesPerBlock, density,
+           lambda.axis.count(), count);
   });
   return {};
 }
 
-Result<void> terminate_secondary(SampledWavelengths& wavelengths) {
-  return terminate_secondary(wavelengths, LaneMask(blocks_for(wavelengths.lanes()), ~std::uint64_t{0}));
+Result<void> terminate_secondary(SampledWavelengthsSpan wavelengths) {
+  return terminate_secondary(wavelengths, LaneMask(wavelengths.density.blocks(), ~std::uint64_t{0}));
 }
 
-Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes) {
+Result<void> terminate_secondary(SampledWavelengthsSpan wavelengths, const LaneMask& lanes) {
   SPECTILE_TRY(shape::same(wavelengths.lambda_nm, wavelengths.density));
-  const SampledSpectraSpan density = wavelengths.density;
+  const SampledSpectraSpan& density = wavelengths.density;
+  const std::size_t count = density.axis.count();
   if (lanes.size() != density.blocks()) {
     return make_error(ErrorCode::kSizeMismatch, "the mask has {} words, {} lanes have {}", lanes.size(),
                       density.lanes, density.blocks());
   }
-  const LaneMask already = secondary_terminated(wavelengths);
-  for (std::size_t i = 0; i < density.lanes; ++i) {
-    const std::size_t word = i / kLanesPerBlock;
-    if (((lanes[word] & ~already[word]) >> (i % kLanesPerBlock) & 1) == 0) continue;
-    for (std::size_t k = 1; k < wavelengths.count(); ++k) density.at(i, k) = 0;
-    if (wavelengths.count() > 1) density.at(i, 0) /= static_cast<float>(wavelengths.count());
+  for (std::size_t block = 0; block < lanes.size(); ++block) {
+    // Lane by lane where there are any: few surfaces are dispersive.
+    for (std::uint64_t left = lanes[block]; left != 0; left &= left - 1) {
+      const std::size_t i = block * kLanesPerBlock + static_cast<std::size_t>(std::countr_zero(left));
+      bool live = false;
+      for (std::size_t k = 1; k < count && i < density.lanes; ++k) live = live || density.at(i, k) != 0;
+      if (!live) continue;
+      for (std::size_t k = 1; k < count; ++k) density.at(i, k) = 0;
+      density.at(i, 0) /= static_cast<float>(count);
+    }
   }
   return {};
 }

@@ -41,6 +41,20 @@ Range radiation_range(const PiecewiseLinearSpectrum& spectrum) {
 Range radiation_range(const DenselySampledSpectrum& spectrum) {
   return {static_cast<double>(spectrum.first_nm()), static_cast<double>(spectrum.last_nm())};
 }
+/// Of products what all factors cover, of sums all of it.
+Range radiation_range(const CombinedSpectrum& spectrum) {
+  Range sum = {kInfinity, 0};
+  for (const auto& term : spectrum.terms()) {
+    Range product = {0, kInfinity};
+    for (const Spectrum& part : term.of) {
+      const Range range = std::visit([](const auto& s) { return radiation_range(s); }, part.kind());
+      product = {std::max(product.first_nm, range.first_nm), std::min(product.last_nm, range.last_nm)};
+    }
+    if (!(product.last_nm > product.first_nm)) continue;
+    sum = {std::min(sum.first_nm, product.first_nm), std::max(sum.last_nm, product.last_nm)};
+  }
+  return sum;
+}
 
 /// 1 for a temperature that is one, NaN else.
 double valid_temperature(double temperature_k) {

@@ -4,6 +4,7 @@
 #include <spectile/spectra/named_light.hpp>
 
 #include "src/base/errors.hpp"
+#include "src/spectra/breaks.hpp"
 
 namespace spectile {
 namespace {
@@ -18,12 +19,38 @@ constexpr int kFirstTabulatedNm = 300;
 constexpr int kFirstNm = static_cast<int>(kFirstVisibleNm);
 constexpr int kLastNm = static_cast<int>(kLastVisibleNm);
 
+/// At every nanometre and on both sides of each sample of its parts, so that no line is passed over and sums
+/// of tables are exact; products are linear in between.
+Result<MeasuredSpectrum> tabulated(const CombinedSpectrum& light) {
+  std::vector<double> places;
+  for (int nm = kFirstTabulatedNm; nm <= kLastNm; ++nm) places.push_back(nm);
+  add_breaks(Spectrum(light), places);
+  std::ranges::sort(places);
+  places.erase(std::ranges::unique(places).begin(), places.end());
+  std::vector<double> wavelengths;
+  std::vector<double> values;
+  for (const double nm : places) {
+    if (nm < kFirstTabulatedNm || nm > kLastNm) continue;
+    const double before = light(std::nextafter(nm, 0.0));
+    const double after = light(nm);
+    // A step, rather than what the last bit of the wavelength makes.
+    if (std::abs(before - after) > 1e-9 * std::max(std::abs(before), std::abs(after))) {
+      wavelengths.push_back(nm);
+      values.push_back(before);
+    }
+    wavelengths.push_back(nm);
+    values.push_back(after);
+  }
+  return MeasuredSpectrum::from_samples(wavelengths, values, Ends::kZero);
+}
+
 }  // namespace
 
 Result<MeasuredSpectrum> tabulated(const Spectrum& light) {
   if (const auto* const linear = std::get_if<PiecewiseLinearSpectrum>(&light.kind())) {
     return linear->measured().with_ends(linear->ends());
   }
+  if (const auto* const combined = std::get_if<CombinedSpectrum>(&light.kind())) return tabulated(*combined);
   std::vector<double> wavelengths;
   for (int nm = kFirstTabulatedNm; nm <= kLastNm; ++nm) wavelengths.push_back(nm);
   return MeasuredSpectrum::from_samples(wavelengths, light.sample(wavelengths), Ends::kZero);

@@ -4,12 +4,13 @@
 #include <spectile/constants.hpp>
 #include <spectile/spectra/spectrum.hpp>
 
+#include "src/spectra/breaks.hpp"
 #include "src/spectra/quadrature.hpp"
 
 namespace spectile {
 namespace {
 
-/// Where a distribution is not smooth, or where its mass is: places to start a quadrature from.
+// See breaks.hpp.
 void add_breaks(const ConstantSpectrum& /*unused*/, std::vector<double>& /*unused*/) {}
 void add_breaks(const BlackbodySpectrum& s, std::vector<double>& breaks) {
   // Octaves about the peak: over a very wide range bisection alone would not find it.
@@ -39,11 +40,32 @@ void add_breaks(const UpsampledSpectrum& s, std::vector<double>& breaks) {
   breaks.push_back(s.last_nm());
 }
 
-/// True if a distribution is linear between its breaks.
-bool is_linear(const Spectrum::Kind& kind) {
-  if (const auto* upsampled = std::get_if<UpsampledSpectrum>(&kind)) return !upsampled->is_sigmoid();
-  return !std::holds_alternative<BlackbodySpectrum>(kind) &&
-         !std::holds_alternative<GaussianSumSpectrum>(kind);
+void add_breaks(const CombinedSpectrum& s, std::vector<double>& breaks) {
+  for (const auto& term : s.terms()) {
+    for (const Spectrum& part : term.of) spectile::add_breaks(part, breaks);
+  }
+}
+
+/// A degree that no quadrature of two points is exact for.
+constexpr int kSmooth = 4;
+
+/// Degree of the polynomial that a distribution is between its breaks.
+int degree_of(const Spectrum::Kind& kind) {
+  if (std::holds_alternative<ConstantSpectrum>(kind)) return 0;
+  if (const auto* upsampled = std::get_if<UpsampledSpectrum>(&kind))
+    return upsampled->is_sigmoid() ? kSmooth : 1;
+  if (const auto* combined = std::get_if<CombinedSpectrum>(&kind)) {
+    int degree = 0;
+    for (const auto& term : combined->terms()) {
+      int product = 0;
+      for (const Spectrum& part : term.of) product = std::min(kSmooth, product + degree_of(part.kind()));
+      degree = std::max(degree, product);
+    }
+    return degree;
+  }
+  const bool smooth =
+      std::holds_alternative<BlackbodySpectrum>(kind) || std::holds_alternative<GaussianSumSpectrum>(kind);
+  return smooth ? kSmooth : 1;
 }
 
 /// Gauss's rule of two points inside [a, b], so that steps at the ends do not count: exact up to the third
@@ -61,10 +83,10 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
                    const Product& product) {
   if (!(last_nm > first_nm)) return 0;
   std::vector<double> breaks = {first_nm};
-  bool exact = true;
+  int degree = 0;
   for (const Spectrum* s : spectra) {
-    std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, s->kind());
-    exact = exact && is_linear(s->kind());
+    spectile::add_breaks(*s, breaks);
+    degree += degree_of(s->kind());
   }
   breaks.push_back(last_nm);
   std::sort(breaks.begin(), breaks.end());
@@ -77,7 +99,8 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
     }
     return sum;
   };
-  if (exact) return sum_pieces([&](double from, double to) { return two_points(product, from, to); });
+  if (degree < kSmooth)
+    return sum_pieces([&](double from, double to) { return two_points(product, from, to); });
   // Pieces that hold next to nothing, a lobe's tails, need no precision of their own.
   const double size = sum_pieces([&](double from, double to) {
     return quadrature::ten_points([&](double nm) { return std::abs(product(nm)); }, from, to);
@@ -88,6 +111,10 @@ double over_pieces(std::initializer_list<const Spectrum*> spectra, double first_
 }
 
 }  // namespace
+
+void add_breaks(const Spectrum& spectrum, std::vector<double>& breaks) {
+  std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, spectrum.kind());
+}
 
 double Spectrum::operator()(double lambda_nm) const noexcept {
   return std::visit([&](const auto& s) { return s(lambda_nm); }, kind_);

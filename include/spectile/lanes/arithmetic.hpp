@@ -6,6 +6,7 @@
 // kBandsMismatch, kSizeMismatch, and those of active_isa(). Padding lanes are computed too and mean nothing.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/result.hpp>
@@ -44,6 +45,10 @@ Result<void> complement(SampledSpectraView a, SampledSpectraSpan out, const Exec
 /// out = (a * b) + c, two roundings.
 Result<void> multiply_add(SampledSpectraView a, SampledSpectraView b, SampledSpectraView c,
                           SampledSpectraSpan out, const Execution& execution = {});
+/// The same with the lane's own factor in place of b: radiance that a weight is added to. Shapes: factor
+/// [lanes].
+Result<void> multiply_add(SampledSpectraView a, LanesView factor, SampledSpectraView c,
+                          SampledSpectraSpan out, const Execution& execution = {});
 /// out = (1 - t) * a + t * b; exactly a at t = 0 and b at t = 1 for finite samples.
 Result<void> lerp(SampledSpectraView a, SampledSpectraView b, float t, SampledSpectraSpan out,
                   const Execution& execution = {});
@@ -79,6 +84,12 @@ Result<void> clamp_zero(SampledSpectraView a, SampledSpectraSpan out, const Exec
 Result<LaneMask> update_throughput(SampledSpectraView throughput, SampledSpectraView scattering,
                                    LanesView density, LanesView u, SampledSpectraSpan out,
                                    const Execution& execution = {});
+
+/// Lane i of `out` = lane lanes[i] of `from`: live paths moved together, the lanes of one material picked
+/// out. Shapes: as many indices as `out` has lanes; the samples of both on one axis. Errors: kBandsMismatch,
+/// kSizeMismatch; kBadArgument for an index that is no lane of `from`, and for batches that share memory.
+Result<void> gather_lanes(SampledSpectraView from, std::span<const std::uint32_t> lanes,
+                          SampledSpectraSpan out, const Execution& execution = {});
 
 /// out[lane] = least sample; NaN is passed over, and a lane of nothing but NaN gives +infinity.
 Result<void> minimum(SampledSpectraView a, LanesSpan out, const Execution& execution = {});

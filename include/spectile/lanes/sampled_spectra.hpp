@@ -89,12 +89,15 @@ struct LanesView {
   const float* data = nullptr;
   std::size_t lanes = 0;
   std::span<const float> values() const noexcept { return {data, lanes}; }
+  /// As BatchView::range().
+  LanesView range(std::size_t first, std::size_t count) const { return {data + first, count}; }
 };
 
 /// Writable view of one float a lane; shapes as in LanesView.
 struct LanesSpan {
   float* data = nullptr;
   std::size_t lanes = 0;
+  LanesSpan range(std::size_t first, std::size_t count) const { return {data + first, count}; }
   operator LanesView() const { return {data, lanes}; }
 };
 
@@ -102,12 +105,18 @@ struct LanesSpan {
 struct ColorView {
   const float* c[3] = {nullptr, nullptr, nullptr};
   std::size_t lanes = 0;
+  ColorView range(std::size_t first, std::size_t count) const {
+    return {{c[0] + first, c[1] + first, c[2] + first}, count};
+  }
 };
 
 /// Writable view of three colour components a lane; shapes as in ColorView.
 struct ColorSpan {
   float* c[3] = {nullptr, nullptr, nullptr};
   std::size_t lanes = 0;
+  ColorSpan range(std::size_t first, std::size_t count) const {
+    return {{c[0] + first, c[1] + first, c[2] + first}, count};
+  }
   operator ColorView() const { return {{c[0], c[1], c[2]}, lanes}; }
 };
 

@@ -48,7 +48,7 @@ class WavelengthDistribution {
 /// Numbers: a wavelength within 2 u of the exact inverse's, or of the end of its nanometre; its density is
 /// density() there, rounded to float. Errors: kSizeMismatch; kBadArgument for numbers not aligned.
 Result<void> sample_wavelengths(const WavelengthDistribution& distribution, LanesView u,
-                                SampledWavelengths& out, const Execution& execution = {});
+                                SampledWavelengthsSpan out, const Execution& execution = {});
 
 /// Densities with which the distribution draws given wavelengths, by whatever way those came about.
 /// Shapes: lambda_nm and density on one axis, in other memory. Units: nm, 1/nm. Errors: as

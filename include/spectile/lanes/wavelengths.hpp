@@ -17,6 +17,16 @@ struct SampledWavelengthsView {
   }
 };
 
+/// The same to write.
+struct SampledWavelengthsSpan {
+  SampledSpectraSpan lambda_nm = {};
+  SampledSpectraSpan density = {};
+  SampledWavelengthsSpan range(std::size_t first, std::size_t count) const {
+    return {lambda_nm.range(first, count), density.range(first, count)};
+  }
+  operator SampledWavelengthsView() const { return {lambda_nm, density}; }
+};
+
 /// K wavelengths in each of n lanes, and the densities that they were drawn with.
 struct SampledWavelengths {
   SampledSpectra lambda_nm;
@@ -28,7 +38,9 @@ struct SampledWavelengths {
   std::size_t count() const noexcept { return axis().count(); }
   /// Of batches of values at these wavelengths.
   const SpectralAxis& axis() const noexcept { return lambda_nm.axis(); }
+  SampledWavelengthsSpan span() { return {lambda_nm.span(), density.span()}; }
   SampledWavelengthsView view() const { return {lambda_nm.view(), density.view()}; }
+  operator SampledWavelengthsSpan() & { return span(); }
   operator SampledWavelengthsView() const { return view(); }
 };
 
@@ -44,15 +56,15 @@ enum class WavelengthSampling {
 /// for densities of another K; kBadArgument for a range that does not ascend or is not within 1e-6 to 1e9 nm,
 /// and for kVisible one that holds less than a millionth of the density. Source of the density: Radziszewski,
 /// Boryczko, Alda, An Improved Technique for Full Spectral Rendering, Journal of WSCG 17, 2009.
-Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengths& out,
+Result<void> sample_wavelengths(WavelengthSampling sampling, LanesView u, SampledWavelengthsSpan out,
                                 double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
                                 const Execution& execution = {});
 
 /// Terminates all but the first wavelength of every lane, or of those of a mask, as at a dispersive surface:
 /// their densities become 0 and the first one's is divided by K, so that sums over the K stay unbiased. Lanes
 /// that are terminated already stay as they are. Errors: kSizeMismatch for a mask of other lanes.
-Result<void> terminate_secondary(SampledWavelengths& wavelengths);
-Result<void> terminate_secondary(SampledWavelengths& wavelengths, const LaneMask& lanes);
+Result<void> terminate_secondary(SampledWavelengthsSpan wavelengths);
+Result<void> terminate_secondary(SampledWavelengthsSpan wavelengths, const LaneMask& lanes);
 
 /// Lanes that have only their first wavelength left; none where K is 1.
 LaneMask secondary_terminated(const SampledWavelengthsView& wavelengths);

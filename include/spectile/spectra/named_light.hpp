@@ -16,8 +16,9 @@ struct NamedLight {
 };
 
 /// A light as a table: the samples and ends of a piecewise-linear spectrum, any other every nanometre from
-/// 300 to 830 nm, the range in which the CIE tabulates illuminants, and 0 beyond. Errors: kBadArgument for
-/// values that are not finite.
+/// 300 to 830 nm, the range in which the CIE tabulates illuminants, and 0 beyond. Of sums and products also
+/// at the samples of their parts, steps included: sums of tables are exact, and no line is passed over.
+/// Errors: kBadArgument for values that are not finite.
 Result<MeasuredSpectrum> tabulated(const Spectrum& light);
 
 /// A light of any distribution. Errors: those of tabulated().

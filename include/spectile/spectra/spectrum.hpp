@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <concepts>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,6 +52,7 @@ class ConstantSpectrum : public SpectrumOperations<ConstantSpectrum> {
   /// Exact; 0 where last is not above first.
   double integral(double first_nm, double last_nm) const noexcept;
   std::string to_text() const;
+  friend bool operator==(const ConstantSpectrum&, const ConstantSpectrum&) = default;
 
  private:
   double value_;
@@ -81,6 +84,7 @@ class PiecewiseLinearSpectrum : public SpectrumOperations<PiecewiseLinearSpectru
   Ends ends() const noexcept { return ends_; }
   std::span<const double> wavelengths_nm() const noexcept { return samples_->wavelengths_nm(); }
   std::span<const double> values() const noexcept { return samples_->values(); }
+  friend bool operator==(const PiecewiseLinearSpectrum& a, const PiecewiseLinearSpectrum& b);
 
  private:
   std::shared_ptr<const MeasuredSpectrum> samples_;  // with constant ends
@@ -110,6 +114,7 @@ class DenselySampledSpectrum : public SpectrumOperations<DenselySampledSpectrum>
   int first_nm() const noexcept { return first_nm_; }
   int last_nm() const noexcept { return first_nm_ + static_cast<int>(values_->size()) - 1; }
   std::span<const double> values() const noexcept { return *values_; }
+  friend bool operator==(const DenselySampledSpectrum& a, const DenselySampledSpectrum& b);
 
  private:
   DenselySampledSpectrum() = default;
@@ -141,6 +146,7 @@ class BlackbodySpectrum : public SpectrumOperations<BlackbodySpectrum> {
   /// Society 57(10), 1976.
   double integral(double first_nm, double last_nm) const noexcept;
   std::string to_text() const;
+  friend bool operator==(const BlackbodySpectrum&, const BlackbodySpectrum&) = default;
 
  private:
   BlackbodySpectrum() = default;
@@ -158,6 +164,7 @@ class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
     double mean_nm = 0;
     double sigma_left_nm = 1;
     double sigma_right_nm = 1;
+    friend bool operator==(const Lobe&, const Lobe&) = default;
   };
   /// Errors: kBadArgument for no lobe, a number that is not finite, a sigma not above 0.
   static Result<GaussianSumSpectrum> from_lobes(std::vector<Lobe> lobes);
@@ -169,6 +176,7 @@ class GaussianSumSpectrum : public SpectrumOperations<GaussianSumSpectrum> {
   double integral(double first_nm, double last_nm) const noexcept;
   std::string to_text() const;
   std::span<const Lobe> lobes() const noexcept { return *lobes_; }
+  friend bool operator==(const GaussianSumSpectrum& a, const GaussianSumSpectrum& b);
 
  private:
   GaussianSumSpectrum() = default;
@@ -213,20 +221,44 @@ class UpsampledSpectrum : public SpectrumOperations<UpsampledSpectrum> {
   const MeasuredSpectrum* table() const noexcept { return parts_.table.get(); }
   double first_nm() const noexcept { return parts_.first_nm; }
   double last_nm() const noexcept { return parts_.last_nm; }
+  friend bool operator==(const UpsampledSpectrum& a, const UpsampledSpectrum& b);
 
  private:
   explicit UpsampledSpectrum(Parts parts) : parts_(std::move(parts)) {}
   Parts parts_;
 };
 
+/// A sum of products of spectra, each times a factor: several lamps, light through a filter, lines on a
+/// smooth ground. Made by the operators below.
+class CombinedSpectrum : public SpectrumOperations<CombinedSpectrum> {
+ public:
+  struct Term;  ///< factor times the product of some spectra
+  explicit CombinedSpectrum(std::vector<Term> terms);
+
+  double operator()(double lambda_nm) const noexcept;
+  /// The largest value where one of its parts has a sample or a lobe, or at a nanometre that is seen.
+  double max_value() const noexcept;
+  /// As inner_product().
+  double integral(double first_nm, double last_nm) const noexcept;
+  std::string to_text() const;
+  std::span<const Term> terms() const noexcept;
+  friend bool operator==(const CombinedSpectrum& a, const CombinedSpectrum& b);
+
+ private:
+  std::shared_ptr<const std::vector<Term>> terms_;
+};
+
 /// Any distribution. Cheap to copy.
 class Spectrum : public SpectrumOperations<Spectrum> {
  public:
   using Kind = std::variant<ConstantSpectrum, PiecewiseLinearSpectrum, DenselySampledSpectrum,
-                            BlackbodySpectrum, GaussianSumSpectrum, UpsampledSpectrum>;
+                            BlackbodySpectrum, GaussianSumSpectrum, UpsampledSpectrum, CombinedSpectrum>;
   template <class Distribution>
   requires std::constructible_from<Kind, Distribution> Spectrum(Distribution distribution)
       : kind_(std::move(distribution)) {}  // NOLINT(*-explicit-*)
+  /// Its samples and its ends.
+  Spectrum(const MeasuredSpectrum& samples)  // NOLINT(*-explicit-*)
+      : kind_(PiecewiseLinearSpectrum(samples, samples.ends())) {}
 
   /// Which distribution it is; std::visit it once, outside any loop.
   const Kind& kind() const noexcept { return kind_; }
@@ -236,9 +268,45 @@ class Spectrum : public SpectrumOperations<Spectrum> {
   /// One line that says what it is.
   std::string to_text() const;
 
+  /// Exact, of any two; NaN where values are. What is beyond a part's ends is that part's: 0 or held.
+  friend Spectrum operator+(const Spectrum& a, const Spectrum& b);
+  friend Spectrum operator-(const Spectrum& a, const Spectrum& b);
+  friend Spectrum operator*(const Spectrum& a, const Spectrum& b);
+  friend Spectrum operator*(double factor, const Spectrum& spectrum);
+  /// The same distribution with the same numbers.
+  friend bool operator==(const Spectrum& a, const Spectrum& b);
+
  private:
   Kind kind_;
 };
+
+struct CombinedSpectrum::Term {
+  double factor = 1;
+  std::vector<Spectrum> of = {};
+  friend bool operator==(const Term&, const Term&) = default;
+};
+
+/// The spectrum times the factor that gives it this luminance: Y of the CIE 1931 observer, over the visible
+/// range, relative to a spectrum that is 1 throughout. Errors: kBadArgument for one without luminance.
+Result<Spectrum> with_luminance(const Spectrum& spectrum, double y = 1);
+/// The same for max_value(). Errors: kBadArgument for one whose maximum is not above 0, or not finite.
+Result<Spectrum> with_maximum(const Spectrum& spectrum, double maximum = 1);
+
+/// A function of the wavelength as a table, linear between its samples. Units: nm. Errors: kBadArgument for a
+/// range that does not ascend, a step not above 0, more than 100000 steps, or a value that is not finite.
+Result<Spectrum> sampled_function(const std::function<double(double lambda_nm)>& function,
+                                  double first_nm = kFirstVisibleNm, double last_nm = kLastVisibleNm,
+                                  double step_nm = 1, Ends ends = Ends::kZero);
+
+/// A line of an emission spectrum.
+struct EmissionLine {
+  double lambda_nm = 0;
+  double power = 0;  ///< its integral
+};
+/// Lines as triangles, `width_nm` wide at half their height, whose integrals are their powers; added where
+/// they overlap. Units: nm. Errors: kBadArgument for no lines, numbers that are not finite, a width not above
+/// 0.
+Result<Spectrum> emission_lines(std::span<const EmissionLine> lines, double width_nm = 0.5);
 
 /// Integral of the product of two spectra: exact where both are piecewise linear, else by Gauss-Legendre
 /// quadrature between their samples to a relative 1e-9 of the integral of the product's magnitude. Limits
