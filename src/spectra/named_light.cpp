@@ -1,6 +1,7 @@
 // Lights as tables, and comparison of lights on different scales.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <spectile/spectra/named_light.hpp>
 
 #include "src/base/errors.hpp"
@@ -32,7 +33,7 @@ Result<MeasuredSpectrum> tabulated(const CombinedSpectrum& light) {
   for (const double nm : places) {
     if (nm < kFirstTabulatedNm || nm > kLastNm) continue;
     const double before = light(std::nextafter(nm, 0.0));
-    const double after = light(nm);
+    const double after = light(std::nextafter(nm, std::numeric_limits<double>::infinity()));
     // A step, rather than what the last bit of the wavelength makes.
     if (std::abs(before - after) > 1e-9 * std::max(std::abs(before), std::abs(after))) {
       wavelengths.push_back(nm);

@@ -37,6 +37,8 @@ class SpectrumOperations {
     }
     return out;
   }
+  /// For the distributions' own: there is nothing to compare here.
+  friend bool operator==(const SpectrumOperations&, const SpectrumOperations&) = default;
 
  private:
   const Distribution& self() const { return static_cast<const Distribution&>(*this); }
