@@ -25,6 +25,9 @@
 #include <spectile/image/texture_cache.hpp>
 #include <spectile/isa.hpp>
 #include <spectile/lanes/arithmetic.hpp>
+#include <spectile/lanes/element_type.hpp>
+#include <spectile/lanes/pixels.hpp>
+#include <spectile/lanes/sample_arrays.hpp>
 #include <spectile/lanes/sampled_spectra.hpp>
 #include <spectile/lanes/sampled_spectrum.hpp>
 #include <spectile/lanes/spectral_axis.hpp>
