@@ -90,9 +90,9 @@ struct AosBaseline {
   /// Three numbers and 4 wavelengths to 4 samples: of a mixture of the basis, by a branch and by an index,
   /// and of a sigmoid.
   AosFunction mixture_at, mixture_at_fused, sigmoids_at;
-  /// Coordinates and 4 wavelengths to 4 samples of a bilinear texture: its colour, then the mixture; the
-  /// sigmoids of four texels.
-  AosFunction texture_of_colors, texture_of_sigmoids;
+  /// Coordinates and 4 wavelengths to 4 samples of a bilinear texture: the mean of four mixtures; the mixture
+  /// of filtered weights; the mean of four sigmoids.
+  AosFunction texture_of_colors, texture_of_colors_fused, texture_of_sigmoids;
   AosFunction update_throughput;  ///< four samples, four, a density and a random number
   /// 4 wavelengths and their densities, drawn as the eye sees from one number.
   AosFunction draw_visible;

@@ -114,16 +114,49 @@ Footprint footprint(const AosTables& t, float u, float v) {
   return out;
 }
 
-/// The texture's colour is filtered, and then made into a spectrum.
+/// The mean of the spectra of four texels.
 void texture_of_colors(const AosTables& t, const float* in, float* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i, in += 6, out += 4) {
     const Footprint at = footprint(t, in[0], in[1]);
-    float color[7] = {};
+    FourSamples sum{};
     for (int tap = 0; tap < 4; ++tap) {
-      for (int k = 0; k < 3; ++k) color[k] += at.weight[tap] * at.texel[tap][k];
+      float color[7];
+      for (int k = 0; k < 3; ++k) color[k] = at.texel[tap][k];
+      for (int k = 0; k < 4; ++k) color[3 + k] = in[2 + k];
+      FourSamples one;
+      mixture_at(t, color, one.c, 1);
+      sum += one * at.weight[tap];
     }
-    for (int k = 0; k < 4; ++k) color[3 + k] = in[2 + k];
-    mixture_at_fused(t, color, out, 1);
+    *reinterpret_cast<FourSamples*>(out) = sum;
+  }
+}
+
+/// The same by the weights of the basis spectra, which are filtered; then one spectrum.
+void texture_of_colors_fused(const AosTables& t, const float* in, float* __restrict out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i, in += 6, out += 4) {
+    const Footprint at = footprint(t, in[0], in[1]);
+    float weights[7] = {};
+    for (int tap = 0; tap < 4; ++tap) {
+      const float* const c = at.texel[tap];
+      int least = 0;
+      int most = 0;
+      for (int k = 1; k < 3; ++k) {
+        if (c[k] < c[least]) least = k;
+        if (c[k] > c[most]) most = k;
+      }
+      const float low = c[least];
+      const float middle = least == most ? low : c[3 - least - most];
+      weights[0] += at.weight[tap] * low;
+      weights[1 + least] += at.weight[tap] * (middle - low);
+      weights[4 + most] += at.weight[tap] * (c[most] - middle);
+    }
+    const Places places_of = places(t, in + 2);
+    float sum[4] = {};
+    for (int basis = 0; basis < 7; ++basis) {
+      const FourSamples samples = sampled(t.basis[basis], places_of);
+      for (int k = 0; k < 4; ++k) sum[k] += weights[basis] * samples.c[k];
+    }
+    for (int k = 0; k < 4; ++k) out[k] = sum[k] < 0 ? 0 : sum[k];
   }
 }
 

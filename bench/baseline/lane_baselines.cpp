@@ -75,25 +75,26 @@ struct Functions {
 
 Functions functions_for(std::string_view operation) {
   const AosBaseline& b = aos_baseline();
-  const Functions all[] = {{"upsample, smits", b.upsample, b.upsample_fused},
-                           {"project to XYZ", b.project},
-                           {"luminance", b.luminance},
-                           {"multiply", b.multiply},
-                           {"exp", b.exp},
-                           {"transmittance", b.transmittance},
-                           {"pow", b.pow},
-                           {"relight, smits-exact", b.jobs[kAosJobs - 1].relight},
-                           {"sigmoid: evaluate", b.sigmoid},
-                           {"look up at 1 nm", b.interpolate_even},
-                           {"look up between irregular knots", b.interpolate_knots},
-                           {"black body", b.planck},
-                           {"sigmoid at wavelengths", b.sigmoid_at},
-                           {"colour at 4 wavelengths, smits-exact", b.mixture_at, b.mixture_at_fused},
-                           {"coefficients at 4 wavelengths, sigmoid", b.sigmoids_at},
-                           {"texture at 4 wavelengths, smits-exact", b.texture_of_colors},
-                           {"texture at 4 wavelengths, sigmoid", b.texture_of_sigmoids},
-                           {"update throughput", b.update_throughput},
-                           {"draw 4 wavelengths, visible", b.draw_visible}};
+  const Functions all[] = {
+      {"upsample, smits", b.upsample, b.upsample_fused},
+      {"project to XYZ", b.project},
+      {"luminance", b.luminance},
+      {"multiply", b.multiply},
+      {"exp", b.exp},
+      {"transmittance", b.transmittance},
+      {"pow", b.pow},
+      {"relight, smits-exact", b.jobs[kAosJobs - 1].relight},
+      {"sigmoid: evaluate", b.sigmoid},
+      {"look up at 1 nm", b.interpolate_even},
+      {"look up between irregular knots", b.interpolate_knots},
+      {"black body", b.planck},
+      {"sigmoid at wavelengths", b.sigmoid_at},
+      {"colour at 4 wavelengths, smits-exact", b.mixture_at, b.mixture_at_fused},
+      {"coefficients at 4 wavelengths, sigmoid", b.sigmoids_at},
+      {"texture at 4 wavelengths, smits-exact", b.texture_of_colors, b.texture_of_colors_fused},
+      {"texture at 4 wavelengths, sigmoid", b.texture_of_sigmoids},
+      {"update throughput", b.update_throughput},
+      {"draw 4 wavelengths, visible", b.draw_visible}};
   for (const Functions& f : all) {
     if (operation == f.operation) return f;
   }

@@ -15,7 +15,7 @@ for object in "$@"; do
   # Undefined: only memory functions, the stack protector, sanitizers, and tables of the same instruction set.
   undefined=$("$nm" -C --undefined-only "$object" | sed 's/^ *[Uuvw] *//' |
     grep -vE '^(memcpy|memset|memmove|__stack_chk_fail|_GLOBAL_OFFSET_TABLE_|__(asan|ubsan|tsan|sanitizer)_.*)$' |
-    grep -vE "^${table%::*}::(arithmetic|color|upsampling|wavelengths|film)$" || true)
+    grep -vE "^${table%::*}::(arithmetic|color|upsampling|wavelengths|film|texture)$" || true)
   # The types that clang's check of calls compares, where an object has that check.
   if "$nm" --undefined-only "$object" | grep -q __ubsan_; then
     others=$(grep -vE '^typeinfo (name )?for .*\(.*\)$' <<<"$others" || true)

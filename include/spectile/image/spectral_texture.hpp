@@ -112,7 +112,8 @@ class SpectralTexture {
   /// of which 0 to 1 could be either; kOutOfMemory.
   Result<void> sample(const TexturePoints& at, SampledSpectraView lambda_nm, SampledSpectraSpan samples,
                       const TextureLookup& lookup = {}, const Execution& execution = {}) const;
-  /// The same at the centres of a batch's bands.
+  /// The same at the centres of a batch's bands: on those that coefficients were made for, the samples that
+  /// expand_image() stores, filtered.
   Result<void> sample(const TexturePoints& at, SampledSpectraSpan samples, const TextureLookup& lookup = {},
                       const Execution& execution = {}) const;
 

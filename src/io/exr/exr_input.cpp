@@ -86,6 +86,8 @@ Result<void> guarded(const std::string& path, const std::function<void()>& actio
     return make_error(ErrorCode::kBadFile, "{}: {}", path, one_line(error.what()));
   } catch (const std::exception& error) {
     std::string text = one_line(error.what());
+    // OpenEXR's own words where it gets no memory for its buffers.
+    if (text.find("Failed to allocate memory") != std::string::npos) return out_of_memory;
     // The library's messages often begin with the file's name in some form of sentence.
     return make_error(ErrorCode::kBadFile, "{}: {}", path, text.empty() ? "damaged" : text);
   } catch (...) {

@@ -151,6 +151,30 @@ Result<void> filter_samples(const KernelTable& kernels, const TextureContent& co
   return {};
 }
 
+/// Samples on the bands that coefficients were made for, by the kernels of whole batches, which need no
+/// look-up a wavelength; each tap's, then filtered. `out` is not the block's wavelengths.
+Result<void> filter_on_own_bands(const KernelTable& kernels, const TextureContent& content,
+                                 const Places& places, std::size_t taps, const TextureBlock& block,
+                                 float* out) {
+  alignas(64) float numbers[kMaxTaps * kernels::kSmitsRow * kLanes];
+  const auto expand = [&](const float* of, float* samples) {
+    const float* const c[3] = {of, of + kLanes, of + 2 * kLanes};
+    rows::expand_blocks(kernels, *content.upsampler, c, scale_of(content, of), samples, 1, false);
+  };
+  if (content.tiles.format().linear) {
+    SPECTILE_TRY(filtered_numbers(kernels, content, places, taps, block.lanes, numbers));
+    expand(numbers, out);
+    return {};
+  }
+  SPECTILE_TRY(tap_numbers(kernels, content, places, taps, block.lanes, numbers));
+  SPECTILE_ASSIGN(auto tap, FloatBuffer::create(block.count * kLanes));
+  for (std::size_t i = 0; i < taps; ++i) {
+    expand(numbers + i * content.tiles.format().floats * kLanes, tap.data());
+    accumulate(kernels, out, tap.data(), places.weight[i], block.count, i == 0);
+  }
+  return {};
+}
+
 /// Bands: of each texel those next to the wavelengths, linear between them, filtered.
 Result<void> filter_bands(const KernelTable& kernels, const TextureContent& content, const Places& places,
                           std::size_t taps, const TextureBlock& block, float* out) {
@@ -187,6 +211,8 @@ Result<void> sample_block(const KernelTable& kernels, const TextureContent& cont
   kernels.texture_places({places.tile[0], places.texel[0], places.weight[0]}, block.at, shape, kLanes);
   const auto taps = static_cast<std::size_t>(shape.taps);
   if (content.upsampler == nullptr) return filter_bands(kernels, content, places, taps, block, out);
+  if (block.own_bands && content.tiles.format().kind == TexelKind::kCoefficients)
+    return filter_on_own_bands(kernels, content, places, taps, block, out);
   return content.tiles.format().linear ? filter_numbers(kernels, content, places, taps, block, out)
                                        : filter_samples(kernels, content, places, taps, block, out);
 }

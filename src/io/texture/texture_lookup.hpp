@@ -22,6 +22,7 @@ struct TextureBlock {
   const float* lambda_nm = nullptr;  ///< [count][64]
   std::size_t count = 0;
   std::size_t lanes = kLanesPerBlock;
+  bool own_bands = false;  ///< at the centres of the bands that coefficients were made for
 };
 
 /// Samples of one block of lanes. Shapes: out [count][64], which may be its wavelengths. Errors: those of

@@ -142,6 +142,8 @@ Result<void> SpectralTexture::Image::sample(const TexturePoints& at, const Sampl
       std::fill_n(centres.data() + k * kLanesPerBlock, kLanesPerBlock, nm);
     }
   }
+  const bool own_bands =
+      lambda_nm == nullptr && source_ && *samples.axis.bands() == source_->upsampler().bands();
   FirstError failed;
   tiles::for_blocks(samples.blocks(), execution, [&](std::size_t first, std::size_t blocks) {
     for (std::size_t block = first; block < first + blocks && !failed.any(); ++block) {
@@ -153,9 +155,10 @@ Result<void> SpectralTexture::Image::sample(const TexturePoints& at, const Sampl
         where.footprint_texels = static_cast<float>(std::max(width(), height()));
       }
       const float* const lambda = lambda_nm == nullptr ? centres.data() : lambda_nm->row(block, 0);
-      Result<void> done = io::sample_block(
-          *table, content, shape, {where, lambda, count, std::min(kLanesPerBlock, samples.lanes - lane)},
-          samples.row(block, 0));
+      Result<void> done =
+          io::sample_block(*table, content, shape,
+                           {where, lambda, count, std::min(kLanesPerBlock, samples.lanes - lane), own_bands},
+                           samples.row(block, 0));
       if (!done) failed.set(std::move(done).error());
     }
   });
