@@ -80,6 +80,9 @@ void print_stats(Representation representation, const Rendered& rendered, const 
   std::printf("%s: %.2f s of the processor, %.0f ns a path; engine %.1f %% of the time, its film %.1f %%\n",
               std::string(to_string(representation)).c_str(), rendered.seconds,
               1e9 * rendered.seconds / paths, 100 * t.engine / t.all, 100 * t.film / t.all);
+  const TextureCacheStats& c = rendered.cache;
+  std::printf("textures: texels %.4g found, %.4g missed; %zu bytes\n", static_cast<double>(c.hits),
+              static_cast<double>(c.misses), c.bytes);
 }
 
 Result<bool> compare_representations(const RenderSettings& settings) {

@@ -63,20 +63,18 @@ Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const 
   const std::clock_t start = std::clock();
   SPECTILE_ASSIGN(const Times times, render(scene, spectra, settings, film));
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return Rendered{std::move(film), times, seconds};
+  return Rendered{std::move(film), times, seconds, spectra.atlas().texture().cache_stats()};
 }
 
 Result<ColorLanes> xyz_of(const Film& film) {
   SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kXyz));
   SPECTILE_TRY(layer.update(kOneThread));
-  const auto width = static_cast<std::size_t>(layer.width());
-  const auto height = static_cast<std::size_t>(layer.height());
-  SPECTILE_ASSIGN(auto xyz, ColorLanes::create(width * height));
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t y = 0; y < height; ++y) {
-      for (std::size_t x = 0; x < width; ++x)
-        xyz.at(y * width + x, c) = layer.plane(c)[y * layer.stride() + x];
-    }
+  const int width = layer.width();
+  const int pixels = width * layer.height();
+  SPECTILE_ASSIGN(auto xyz, ColorLanes::create(static_cast<std::size_t>(pixels)));
+  for (int i = 0; i < pixels; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      xyz.at(static_cast<std::size_t>(i), c) = layer.at(c, i % width, i / width);
   }
   return xyz;
 }

@@ -17,6 +17,7 @@ struct Rendered {
   Film film;
   Times times;         ///< of all workers together
   double seconds = 0;  ///< of the processor, likewise
+  TextureCacheStats cache;
 };
 Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings);
 

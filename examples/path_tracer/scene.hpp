@@ -64,7 +64,7 @@ struct Hit {
 Hit trace(const Scene& scene, const Ray& ray);
 bool blocked(const Scene& scene, const Ray& ray, double far);
 
-/// The only place that knows textures: linear sRGB of a diffuse surface at u, v.
+/// Linear sRGB of a surface at u, v, which the atlas is painted with.
 Rgb albedo(const Surface& surface, double u, double v);
 
 /// The box of the picture: two lamps, a copper and a glass sphere, textured walls.

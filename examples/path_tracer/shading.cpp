@@ -36,12 +36,10 @@ void Wavefront::trace_lane(std::size_t lane, std::uint32_t depth) {
 
 void Wavefront::shade_diffuse(std::size_t lane, const Hit& hit, std::uint32_t depth) {
   Path& path = paths_[lane];
-  const Rgb color = albedo(*hit.surface, hit.u, hit.v);
-  for (std::size_t c = 0; c < 3; ++c) rgb_.at(lane, c) = color[c];
-  if (color == Rgb{}) {
-    path.alive = false;
-    return;
-  }
+  const auto surface = static_cast<std::size_t>(hit.surface - scene_->surfaces.data());
+  const auto [u, v] = spectra_->atlas().point(surface, hit.u, hit.v);
+  texture_u_[lane] = u;
+  texture_v_[lane] = v;
   if (!lights_.empty()) sample_lamp(lane, hit, depth);
   // The cosine over pi in this density is that of the reflected light, so that the lane's density stays 1.
   const Vec3 d = cosine_direction(hit.normal, path.random(dimension(depth, kDirectionU)),

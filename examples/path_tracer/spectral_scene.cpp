@@ -42,9 +42,10 @@ Result<Spectrum> sum_of(const Spectrum& a, const Spectrum& b) {
 /// of values at a wavelength stay values, while products of averages are not averages.
 Result<Bands> bands_for(const Scene& scene) {
   PlannerOptions options;
-  for (const Lamp& lamp : scene.lamps) {
-    SPECTILE_ASSIGN(const auto light, named_spectrum(lamp.spectrum));
-    SPECTILE_ASSIGN(auto named, named_light(lamp.spectrum, light));
+  // The upsampler makes spectra whose colours are those of the textures under D65.
+  for (const std::string& name : {scene.lamps[0].spectrum, scene.lamps[1].spectrum, std::string("D65")}) {
+    SPECTILE_ASSIGN(const auto light, named_spectrum(name));
+    SPECTILE_ASSIGN(auto named, named_light(name, light));
     options.lights.push_back(std::move(named));
   }
   for (const NamedSpectrumInfo& info : named_spectra()) {
@@ -52,10 +53,6 @@ Result<Bands> bands_for(const Scene& scene) {
     SPECTILE_ASSIGN(auto patch, named_spectrum(info.name));
     options.reflectances.push_back(std::move(patch));
   }
-  // The upsampler makes spectra whose colours are those of the textures under D65.
-  SPECTILE_ASSIGN(const auto white, named_spectrum("D65"));
-  SPECTILE_ASSIGN(auto named_white, named_light("D65", white));
-  options.lights.push_back(std::move(named_white));
   options.sampling = BandSampling::kPoints;
   options.bands = kPlannedBands;
   options.bounces = 2;
@@ -97,9 +94,8 @@ Result<SpectralScene> SpectralScene::create(const Scene& scene, Representation r
   SPECTILE_ASSIGN(const auto axis, axis_of(scene, representation));
   // Paths with wavelengths of their own have the reference's reflectances: those of bands of a nanometre.
   SPECTILE_ASSIGN(const auto fine, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
-  SPECTILE_ASSIGN(auto upsampler, Upsampler::create(kDefaultMethod, Quantity::kReflectance,
-                                                    axis.bands() != nullptr ? *axis.bands() : fine));
-  SpectralScene out(axis, std::move(upsampler));
+  SPECTILE_ASSIGN(auto atlas, Atlas::create(scene, axis.bands() != nullptr ? *axis.bands() : fine));
+  SpectralScene out(axis, std::move(atlas));
   out.representation_ = representation;
   SPECTILE_ASSIGN(const auto first, scaled_lamp(scene.lamps[0]));
   SPECTILE_ASSIGN(const auto second, scaled_lamp(scene.lamps[1]));
@@ -193,11 +189,12 @@ Result<void> SpectralScene::start(LanesView u, PathSpectra& paths) const {
   return {};
 }
 
-Result<void> SpectralScene::reflectances(ColorView rgb, const PathSpectra& paths,
+Result<void> SpectralScene::reflectances(const TexturePoints& at, const PathSpectra& paths,
                                          SampledSpectraSpan scattering) const {
-  if (on_bands()) return upsample_srgb(upsampler_, rgb, scattering, StoreHint::kCached, kOneThread);
-  return upsample_srgb(upsampler_, rgb, paths.wavelengths.lambda_nm.view().range(0, rgb.lanes), scattering,
-                       kOneThread);
+  const SpectralTexture& texture = atlas_.texture();
+  if (on_bands()) return texture.sample(at, scattering, {}, kOneThread);
+  return texture.sample(at, paths.wavelengths.lambda_nm.view().range(0, scattering.lanes), scattering, {},
+                        kOneThread);
 }
 
 Result<void> SpectralScene::look_up(MetalSpectra& metals, std::size_t lanes) const {

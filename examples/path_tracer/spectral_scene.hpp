@@ -2,15 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <spectile/spectile.hpp>
 #include <string_view>
 #include <vector>
 
-#include "scene.hpp"
+#include "atlas.hpp"
 
 namespace tracer {
-
-using namespace spectile;
 
 /// Ways to carry spectra along paths.
 enum class Representation {
@@ -59,8 +56,10 @@ class SpectralScene {
 
   /// Draws wavelengths and looks the lamps up there; throughput 1, radiance 0.
   Result<void> start(LanesView u, PathSpectra& paths) const;
-  /// Reflectances of linear sRGB, for the lanes of `scattering`.
-  Result<void> reflectances(ColorView rgb, const PathSpectra& paths, SampledSpectraSpan scattering) const;
+  /// Reflectances at points of the atlas, for the lanes of `scattering`.
+  Result<void> reflectances(const TexturePoints& at, const PathSpectra& paths,
+                            SampledSpectraSpan scattering) const;
+  const Atlas& atlas() const noexcept { return atlas_; }
   /// Fills eta and k of the first lanes, whose wavelengths are in `lambda`.
   Result<void> look_up(MetalSpectra& metals, std::size_t lanes) const;
   Result<void> look_up(GlassSpectra& glasses, std::size_t lanes) const;
@@ -69,12 +68,11 @@ class SpectralScene {
 
  private:
   enum Constant : std::size_t { kFirstLamp, kSecondLamp, kEta, kAbsorption, kConstants };
-  explicit SpectralScene(SpectralAxis axis, Upsampler upsampler)
-      : axis_(std::move(axis)), upsampler_(std::move(upsampler)) {}
+  SpectralScene(SpectralAxis axis, Atlas atlas) : axis_(std::move(axis)), atlas_(std::move(atlas)) {}
   Result<void> prepare(const Scene& scene, const std::array<Spectrum, kConstants>& spectra);
 
   SpectralAxis axis_;
-  Upsampler upsampler_;
+  Atlas atlas_;
   Representation representation_ = Representation::kUniform;
   std::optional<WavelengthDistribution> distribution_;
   std::vector<SpectrumSampler> samplers_;             ///< [kConstants], for wavelengths

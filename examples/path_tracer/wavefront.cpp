@@ -6,27 +6,14 @@
 namespace tracer {
 namespace {
 
-/// Views of the first lanes.
+/// A view of the first lanes.
 LanesView first_lanes(const ScalarLanes& lanes, std::size_t count) {
   return {lanes.view().data, count};
-}
-ColorView first_lanes(const ColorLanes& lanes, std::size_t count) {
-  const ColorView all = lanes.view();
-  return {{all.c[0], all.c[1], all.c[2]}, count};
 }
 
 void swap_lanes(SampledSpectra& batch, std::size_t a, std::size_t b) {
   const std::size_t count = batch.axis().count();
   for (std::size_t k = 0; k < count; ++k) std::swap(batch.at(a, k), batch.at(b, k));
-}
-
-void copy_lane(SampledSpectra& batch, std::size_t from, std::size_t to) {
-  const std::size_t count = batch.axis().count();
-  for (std::size_t k = 0; k < count; ++k) batch.at(to, k) = batch.at(from, k);
-}
-
-bool bit_of(const LaneMask& mask, std::size_t lane) {
-  return ((mask[lane / 64] >> (lane % 64)) & 1U) != 0;
 }
 
 }  // namespace
@@ -69,8 +56,7 @@ Result<void> Wavefront::allocate() {
   SPECTILE_ASSIGN(s_, spectra_->make_paths(lanes));
   SPECTILE_ASSIGN(metal_spectra_, spectra_->make_metals(lanes));
   SPECTILE_ASSIGN(glass_spectra_, spectra_->make_glasses(lanes));
-  SPECTILE_ASSIGN(rgb_, ColorLanes::create(lanes));
-  for (ScalarLanes* scalars : {&u_, &density_, &lamp_, &emitted_, &direct_}) {
+  for (ScalarLanes* scalars : {&u_, &density_, &texture_u_, &texture_v_, &lamp_, &emitted_, &direct_}) {
     SPECTILE_ASSIGN(*scalars, ScalarLanes::create(lanes));
   }
   return {};
@@ -122,14 +108,15 @@ Result<void> Wavefront::bounce(std::uint32_t depth) {
   glasses_.clear();
   any_emitted_ = any_direct_ = false;
   for (std::size_t lane = 0; lane < active; ++lane) {
-    for (std::size_t c = 0; c < 3; ++c) rgb_.at(lane, c) = 0;
+    texture_u_[lane] = texture_v_[lane] = 0;
     lamp_[lane] = emitted_[lane] = direct_[lane] = 0;
     density_[lane] = 1;
     if (lane < live_) trace_lane(lane, depth);
   }
   SPECTILE_TRY(add_emission(active));
   SPECTILE_TRY(timed([&] {
-    return spectra_->reflectances(first_lanes(rgb_, active), s_, s_.scattering.span().range(0, active));
+    const TexturePoints at = {first_lanes(texture_u_, active), first_lanes(texture_v_, active)};
+    return spectra_->reflectances(at, s_, s_.scattering.span().range(0, active));
   }));
   SPECTILE_TRY(shade_metals());
   SPECTILE_TRY(shade_glasses(depth));
@@ -176,7 +163,7 @@ Result<void> Wavefront::scatter(std::size_t active, std::uint32_t depth) {
         update_throughput(throughput, s_.scattering.view().range(0, active), first_lanes(density_, active),
                           roulette ? first_lanes(u_, active) : LanesView{}, throughput, kOneThread));
     for (std::size_t lane = 0; lane < live_; ++lane) {
-      if (bit_of(ended, lane)) paths_[lane].alive = false;
+      if (((ended[lane / 64] >> (lane % 64)) & 1U) != 0) paths_[lane].alive = false;
     }
     return {};
   }));
@@ -196,12 +183,12 @@ void Wavefront::compact() {
     std::swap(paths_[lane], paths_[last]);
     std::swap(x_[lane], x_[last]);
     std::swap(y_[lane], y_[last]);
-    copy_lane(s_.throughput, last, lane);
-    swap_lanes(s_.radiance, lane, last);
+    for (SampledSpectra* batch : {&s_.throughput, &s_.radiance}) swap_lanes(*batch, lane, last);
     if (spectra_->on_bands()) continue;
-    swap_lanes(s_.wavelengths.lambda_nm, lane, last);
-    swap_lanes(s_.wavelengths.density, lane, last);
-    for (SampledSpectra& lamp : s_.lamps) copy_lane(lamp, last, lane);
+    for (SampledSpectra* batch :
+         {&s_.wavelengths.lambda_nm, &s_.wavelengths.density, &s_.lamps[0], &s_.lamps[1]}) {
+      swap_lanes(*batch, lane, last);
+    }
   }
 }
 

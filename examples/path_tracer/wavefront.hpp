@@ -96,10 +96,10 @@ class Wavefront {
   GlassSpectra glass_spectra_;
   std::vector<SpecularLane> metals_, glasses_;
   LaneMask glass_mask_;
-  ColorLanes rgb_;
   ScalarLanes u_, density_;
-  ScalarLanes lamp_;              ///< 0 or 1
-  ScalarLanes emitted_, direct_;  ///< factors of that lamp's radiance
+  ScalarLanes texture_u_, texture_v_;  ///< points of the atlas; any where there is no matt surface
+  ScalarLanes lamp_;                   ///< 0 or 1
+  ScalarLanes emitted_, direct_;       ///< factors of that lamp's radiance
   bool any_emitted_ = false, any_direct_ = false;
 };
 
