@@ -19,21 +19,26 @@ bool below(const char* subject, double value, double bound) {
   return report(subject, value, "at most", bound, value <= bound);
 }
 
+/// Renders and develops the spectrum of each pixel in bands.
+Result<FilmDevelopment> spectral_picture(const Scene& scene, Representation representation,
+                                         RenderSettings settings, const Bands& bands) {
+  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, representation));
+  settings.kept = bands;
+  SPECTILE_ASSIGN(const auto rendered, render(scene, spectra, settings));
+  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(rendered.film, FilmLayer::kSpectrum));
+  SPECTILE_TRY(layer.update(kOneThread));
+  return layer;
+}
+
 /// Mean radiance of each pixel over all wavelengths, each weighed by one over its density: 1 without noise
 /// where every wavelength carries 1, which colours are not.
 Result<std::vector<double>> mean_radiances(const Scene& scene, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kVisible));
-  FilmOptions options = film_options(spectra, settings);
-  options.spectral = true;
-  SPECTILE_ASSIGN(options.bands,
+  SPECTILE_ASSIGN(const auto all,
                   Bands::uniform(kFirstVisibleNm, kLastVisibleNm, kLastVisibleNm - kFirstVisibleNm));
-  SPECTILE_ASSIGN(Film film, Film::create(options));
-  SPECTILE_ASSIGN([[maybe_unused]] const Times times, render(scene, spectra, settings, film));
-  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kSpectrum));
-  SPECTILE_TRY(layer.update(kOneThread));
+  SPECTILE_ASSIGN(const auto layer, spectral_picture(scene, Representation::kVisible, settings, all));
   std::vector<double> out;
-  for (int y = 0; y < layer.height(); ++y) {
-    for (int x = 0; x < layer.width(); ++x) out.push_back(static_cast<double>(layer.at(0, x, y)));
+  for (int i = 0; i < layer.width() * layer.height(); ++i) {
+    out.push_back(static_cast<double>(layer.at(0, i % layer.width(), i / layer.width())));
   }
   return out;
 }
@@ -44,19 +49,12 @@ double largest_deviation(const std::vector<double>& values, double expected) {
   return largest;
 }
 
-RenderSettings small(std::uint32_t size, std::uint32_t samples) {
-  RenderSettings settings;
-  settings.size = size;
-  settings.samples = samples;
-  return settings;
-}
-
 RenderSettings furnace_settings(std::uint32_t depth) {
-  RenderSettings settings = small(16, 16);
-  settings.roulette_from = RenderSettings::kNever;
-  settings.next_event = false;
-  settings.max_depth = depth;
-  return settings;
+  return {.size = 16,
+          .samples = 16,
+          .max_depth = depth,
+          .roulette_from = RenderSettings::kNever,
+          .next_event = false};
 }
 
 /// Light off `depth` surfaces of a closed furnace: the sum of rho^i below the depth, the limit of which is
@@ -77,22 +75,16 @@ Result<bool> check_furnace() {
   }
   // A colour, band by band: the film keeps the spectrum.
   const Rgb color = {0.7F, 0.3F, 0.1F};
-  const Scene scene = furnace_scene(color);
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kEven));
-  FilmOptions options = film_options(spectra, settings);
-  options.spectral = true;
-  SPECTILE_ASSIGN(Film film, Film::create(options));
-  SPECTILE_ASSIGN([[maybe_unused]] const Times times, render(scene, spectra, settings, film));
-  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kSpectrum));
-  SPECTILE_TRY(layer.update(kOneThread));
-  SPECTILE_ASSIGN(const auto upsampler,
-                  Upsampler::create(kDefaultMethod, Quantity::kReflectance, options.bands));
+  const Bands bands;
+  SPECTILE_ASSIGN(const auto layer,
+                  spectral_picture(furnace_scene(color), Representation::kEven, settings, bands));
+  SPECTILE_ASSIGN(const auto upsampler, Upsampler::create(kDefaultMethod, Quantity::kReflectance, bands));
   SPECTILE_ASSIGN(const auto rho,
                   rgb_spectrum(upsampler, {static_cast<double>(color[0]), static_cast<double>(color[1]),
                                            static_cast<double>(color[2])}));
   double largest = 0;
-  for (std::size_t k = 0; k < options.bands.count(); ++k) {
-    const double expected = furnace_radiance(rho(options.bands[k].centre_nm), kDepth);
+  for (std::size_t k = 0; k < bands.count(); ++k) {
+    const double expected = furnace_radiance(rho(bands[k].centre_nm), kDepth);
     for (int i = 0; i < layer.width(); ++i) {
       largest = std::max(largest, std::abs(static_cast<double>(layer.at(k, i, i)) / expected - 1));
     }
@@ -136,7 +128,7 @@ Result<bool> check_energy() {
     if (s.lamp >= 0) s.shape = Rectangle({s.lamp == 0 ? -0.8 : 0.2, 1.9, -0.8}, {0.6, 0, 0}, {0, 0, 1.6});
   }
   lit.lamps[1].luminance *= 0.5;
-  const RenderSettings many = small(32, 256);
+  const RenderSettings many = {.size = 32, .samples = 256};
   SPECTILE_ASSIGN(const double sampled, mean_luminance(lit, many, true));
   SPECTILE_ASSIGN(const double hit, mean_luminance(lit, many, false));
   return good & below("lamps sampled against hit, relative difference", std::abs(sampled / hit - 1), 0.01);
@@ -145,9 +137,7 @@ Result<bool> check_energy() {
 Result<bool> check_bits() {
   const Scene scene = box_scene();
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kLight));
-  RenderSettings settings = small(40, 16);
-  settings.threads = 1;
-  settings.batch = 64;
+  RenderSettings settings = {.size = 40, .samples = 16, .threads = 1, .batch = 64};
   SPECTILE_ASSIGN(const auto first, render(scene, spectra, settings));
   bool good = true;
   for (const std::size_t threads : {1U, 8U}) {
@@ -175,8 +165,7 @@ double squared_difference(const ColorLanes& a, const ColorLanes& b) {
 Result<bool> check_convergence() {
   const Scene scene = box_scene();
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kLight));
-  RenderSettings settings = small(16, 4096);
-  settings.seed = 1;
+  RenderSettings settings = {.size = 16, .samples = 4096, .seed = 1};
   settings.limit = 6;  // of all pictures, so that no few paths from matt to glass to lamp decide the slope
   SPECTILE_ASSIGN(const auto reference, render(scene, spectra, settings));
   SPECTILE_ASSIGN(const auto expected, xyz_of(reference.film));

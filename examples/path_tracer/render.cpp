@@ -20,12 +20,12 @@ Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::
   }
 }
 
-}  // namespace
-
 FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& settings) {
   FilmOptions options;
   options.width = options.height = static_cast<int>(settings.size);
   options.maximum_component = settings.limit;
+  options.spectral = settings.kept.has_value();
+  if (settings.kept) options.bands = *settings.kept;
   if (const Bands* bands = spectra.axis().bands()) {
     options.input = FilmInput::kBands;
     options.bands = *bands;
@@ -33,8 +33,11 @@ FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& set
   return options;
 }
 
-Result<Times> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings,
-                     Film& film) {
+}  // namespace
+
+Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
+  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
+  const std::clock_t start = std::clock();
   const std::uint64_t paths = std::uint64_t{settings.size} * settings.size * settings.samples;
   std::atomic<std::uint64_t> next = 0;
   std::vector<Wavefront> wavefronts;
@@ -55,15 +58,8 @@ Result<Times> render(const Scene& scene, const SpectralScene& spectra, const Ren
     sum.film += result->film;
     sum.all += result->all;
   }
-  return sum;
-}
-
-Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
-  const std::clock_t start = std::clock();
-  SPECTILE_ASSIGN(const Times times, render(scene, spectra, settings, film));
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return Rendered{std::move(film), times, seconds, spectra.atlas().texture().cache_stats()};
+  return Rendered{std::move(film), sum, seconds, spectra.atlas().texture().cache_stats()};
 }
 
 Result<ColorLanes> xyz_of(const Film& film) {

@@ -82,21 +82,18 @@ bool blocked(const Scene& scene, const Ray& ray, double far) {
 }
 
 Rgb albedo(const Surface& surface, double u, double v) {
+  const double x = u * surface.repeats;
   switch (surface.pattern) {
     case Pattern::kPlain:
       break;
-    case Pattern::kChecker: {
-      const bool odd = (cell(u * surface.repeats) + cell(v * surface.repeats)) % 2 != 0;
-      return odd ? surface.second : surface.first;
-    }
+    case Pattern::kChecker:
+      return (cell(x) + cell(v * surface.repeats)) % 2 != 0 ? surface.second : surface.first;
     case Pattern::kBricks:
       return bricks(surface, u, v);
     case Pattern::kChart:
       return chart(surface, u, v);
-    case Pattern::kPlanks: {
-      const double x = u * surface.repeats;
+    case Pattern::kPlanks:
       return x - std::floor(x) < 0.5 ? surface.first : surface.second;
-    }
   }
   return surface.first;
 }

@@ -8,15 +8,12 @@ namespace tracer {
 namespace {
 
 /// A lamp scaled so that the observer's Y is its luminance.
-Result<MeasuredSpectrum> scaled_lamp(const Lamp& lamp) {
+Result<Spectrum> scaled_lamp(const Lamp& lamp) {
   SPECTILE_ASSIGN(const auto spectrum, named_spectrum(lamp.spectrum));
   SPECTILE_ASSIGN(const auto y, named_spectrum("cie1931-y"));
   SPECTILE_ASSIGN(const auto table, tabulated(spectrum));
-  return table.scaled(lamp.luminance * y.integral() / inner_product(spectrum, y));
-}
-
-Spectrum spectrum_of(const MeasuredSpectrum& lamp) {
-  return PiecewiseLinearSpectrum(lamp, Ends::kZero);
+  const double factor = lamp.luminance * y.integral() / inner_product(spectrum, y);
+  return Spectrum(PiecewiseLinearSpectrum(table.scaled(factor), Ends::kZero));
 }
 
 /// A named index of refraction, which keeps its outer values beyond its table: SF10's begins at 380 nm.
@@ -62,21 +59,12 @@ Result<Bands> bands_for(const Scene& scene) {
 }
 
 Result<SpectralAxis> axis_of(const Scene& scene, Representation representation) {
-  switch (representation) {
-    case Representation::kEven:
-      return SpectralAxis(Bands());
-    case Representation::kPlanned: {
-      SPECTILE_ASSIGN(const auto bands, bands_for(scene));
-      return SpectralAxis(bands);
-    }
-    case Representation::kReference: {
-      SPECTILE_ASSIGN(const auto bands, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
-      return SpectralAxis(bands);
-    }
-    case Representation::kUniform:
-    case Representation::kVisible:
-    case Representation::kLight:
-      break;
+  if (representation == Representation::kEven) return SpectralAxis(Bands());
+  const bool planned = representation == Representation::kPlanned;
+  if (planned || representation == Representation::kReference) {
+    SPECTILE_ASSIGN(const auto bands,
+                    planned ? bands_for(scene) : Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
+    return SpectralAxis(bands);
   }
   return SpectralAxis::own_wavelengths(kWavelengths);
 }
@@ -101,7 +89,7 @@ Result<SpectralScene> SpectralScene::create(const Scene& scene, Representation r
   SPECTILE_ASSIGN(const auto second, scaled_lamp(scene.lamps[1]));
   SPECTILE_ASSIGN(const auto eta, held(scene.metal.eta));
   SPECTILE_ASSIGN(const auto k, held(scene.metal.k));
-  SPECTILE_TRY(out.prepare(scene, {spectrum_of(first), spectrum_of(second), eta, k}));
+  SPECTILE_TRY(out.prepare(scene, {first, second, eta, k}));
   return out;
 }
 
@@ -147,8 +135,8 @@ Result<PathSpectra> SpectralScene::make_paths(std::size_t lanes) const {
   return out;
 }
 
-Result<MetalSpectra> SpectralScene::make_metals(std::size_t lanes) const {
-  MetalSpectra out;
+Result<OpticalConstants> SpectralScene::make_metals(std::size_t lanes) const {
+  OpticalConstants out;
   if (on_bands()) {
     SPECTILE_ASSIGN(out.eta, SampledSpectra::broadcast(axis_, 1, bands_[kEta]));
     SPECTILE_ASSIGN(out.k, SampledSpectra::broadcast(axis_, 1, bands_[kAbsorption]));
@@ -160,8 +148,8 @@ Result<MetalSpectra> SpectralScene::make_metals(std::size_t lanes) const {
   return out;
 }
 
-Result<GlassSpectra> SpectralScene::make_glasses(std::size_t lanes) const {
-  GlassSpectra out;
+Result<OpticalConstants> SpectralScene::make_glasses(std::size_t lanes) const {
+  OpticalConstants out;
   SPECTILE_ASSIGN(const auto one, SpectralAxis::own_wavelengths(1));
   SPECTILE_ASSIGN(out.lambda, SampledSpectra::create(one, lanes));
   SPECTILE_ASSIGN(out.eta, SampledSpectra::create(one, lanes));
@@ -197,34 +185,30 @@ Result<void> SpectralScene::reflectances(const TexturePoints& at, const PathSpec
                         kOneThread);
 }
 
-Result<void> SpectralScene::look_up(MetalSpectra& metals, std::size_t lanes) const {
+Result<void> SpectralScene::look_up_metals(OpticalConstants& metals, std::size_t lanes) const {
   if (on_bands()) return {};
   const SampledSpectraView lambda = metals.lambda.view().range(0, lanes);
   SPECTILE_TRY(samplers_[kEta].sample(lambda, metals.eta.span().range(0, lanes), kOneThread));
   return samplers_[kAbsorption].sample(lambda, metals.k.span().range(0, lanes), kOneThread);
 }
 
-Result<void> SpectralScene::look_up(GlassSpectra& glasses, std::size_t lanes) const {
+Result<void> SpectralScene::look_up_glasses(OpticalConstants& glasses, std::size_t lanes) const {
   return glass_->sample(glasses.lambda.view().range(0, lanes), glasses.eta.span().range(0, lanes),
                         kOneThread);
 }
 
 namespace {
-constexpr std::pair<std::string_view, Representation> kNames[] = {
-    {"uniform", Representation::kUniform}, {"visible", Representation::kVisible},
-    {"light", Representation::kLight},     {"even", Representation::kEven},
-    {"planned", Representation::kPlanned}, {"reference", Representation::kReference},
-};
+constexpr std::string_view kNames[] = {"uniform", "visible", "light", "even", "planned", "reference"};
 }  // namespace
 
 std::optional<Representation> parse_representation(std::string_view name) {
-  const auto* const found = std::ranges::find(kNames, name, [](const auto& entry) { return entry.first; });
+  const auto* const found = std::ranges::find(kNames, name);
   if (found == std::end(kNames)) return std::nullopt;
-  return found->second;
+  return static_cast<Representation>(found - kNames);
 }
 
 std::string_view to_string(Representation representation) {
-  return std::ranges::find(kNames, representation, [](const auto& entry) { return entry.second; })->first;
+  return kNames[static_cast<std::size_t>(representation)];
 }
 
 }  // namespace tracer

@@ -32,14 +32,10 @@ struct PathSpectra {
   SampledSpectra light, product;  ///< intermediate results
 };
 
-/// Optical constants of a few lanes: a lane each at wavelengths of their own, one for all on bands.
-struct MetalSpectra {
+/// Optical constants of a few lanes. Metal: a lane each at wavelengths of their own, one for all on bands.
+/// Glass: at one wavelength a lane, without k.
+struct OpticalConstants {
   SampledSpectra lambda, eta, k;
-};
-
-/// Index of refraction for one wavelength a lane.
-struct GlassSpectra {
-  SampledSpectra lambda, eta;
 };
 
 /// Spectra of a scene, ready for batches. Shared by all threads.
@@ -51,8 +47,8 @@ class SpectralScene {
   const SpectralAxis& axis() const noexcept { return axis_; }
 
   Result<PathSpectra> make_paths(std::size_t lanes) const;
-  Result<MetalSpectra> make_metals(std::size_t lanes) const;
-  Result<GlassSpectra> make_glasses(std::size_t lanes) const;
+  Result<OpticalConstants> make_metals(std::size_t lanes) const;
+  Result<OpticalConstants> make_glasses(std::size_t lanes) const;
 
   /// Draws wavelengths and looks the lamps up there; throughput 1, radiance 0.
   Result<void> start(LanesView u, PathSpectra& paths) const;
@@ -61,8 +57,8 @@ class SpectralScene {
                             SampledSpectraSpan scattering) const;
   const Atlas& atlas() const noexcept { return atlas_; }
   /// Fills eta and k of the first lanes, whose wavelengths are in `lambda`.
-  Result<void> look_up(MetalSpectra& metals, std::size_t lanes) const;
-  Result<void> look_up(GlassSpectra& glasses, std::size_t lanes) const;
+  Result<void> look_up_metals(OpticalConstants& metals, std::size_t lanes) const;
+  Result<void> look_up_glasses(OpticalConstants& glasses, std::size_t lanes) const;
   /// Centre of a band. Units: nm.
   float band_nm(std::size_t k) const { return static_cast<float>((*axis_.bands())[k].centre_nm); }
 
