@@ -62,6 +62,13 @@ Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const 
   return Rendered{std::move(film), sum, seconds, spectra.atlas().texture().cache_stats()};
 }
 
+Result<std::array<double, 3>> white_of(const Lamp& lamp) {
+  SPECTILE_ASSIGN(const auto spectrum, named_spectrum(lamp.spectrum));
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  const std::array<double, 3> xyz = observer.response(spectrum);
+  return std::array<double, 3>{xyz[0] / xyz[1], 1, xyz[2] / xyz[1]};
+}
+
 Result<ColorLanes> xyz_of(const Film& film) {
   SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kXyz));
   SPECTILE_TRY(layer.update(kOneThread));

@@ -14,6 +14,9 @@ struct Rendered {
 };
 Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings);
 
+/// XYZ of a lamp at Y = 1.
+Result<std::array<double, 3>> white_of(const Lamp& lamp);
+
 /// XYZ of a film's pixels. Shapes: lane y * size + x.
 Result<ColorLanes> xyz_of(const Film& film);
 

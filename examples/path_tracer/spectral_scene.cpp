@@ -126,11 +126,8 @@ Result<PathSpectra> SpectralScene::make_paths(std::size_t lanes) const {
     SPECTILE_ASSIGN(*batch, SampledSpectra::create(axis_, lanes));
   }
   for (std::size_t lamp = 0; lamp < 2; ++lamp) {
-    if (on_bands()) {
-      SPECTILE_ASSIGN(out.lamps[lamp], SampledSpectra::broadcast(axis_, lanes, bands_[lamp]));
-    } else {
-      SPECTILE_ASSIGN(out.lamps[lamp], SampledSpectra::create(axis_, lanes));
-    }
+    SPECTILE_ASSIGN(out.lamps[lamp], on_bands() ? SampledSpectra::broadcast(axis_, lanes, bands_[lamp])
+                                                : SampledSpectra::create(axis_, lanes));
   }
   return out;
 }
