@@ -94,8 +94,7 @@ Result<bool> check_furnace() {
 
 /// Mean Y, and the sum of the variances of X, Y and Z over pixels, each relative to its mean squared.
 struct ColorNoise {
-  double mean_y = 0;
-  double variance = 0;
+  double mean_y = 0, variance = 0;
 };
 
 Result<ColorNoise> color_noise(const Scene& scene, Representation representation,
@@ -106,8 +105,7 @@ Result<ColorNoise> color_noise(const Scene& scene, Representation representation
   const auto pixels = static_cast<double>(xyz.lanes());
   ColorNoise out;
   for (std::size_t c = 0; c < 3; ++c) {
-    double sum = 0;
-    double squares = 0;
+    double sum = 0, squares = 0;
     for (std::size_t i = 0; i < xyz.lanes(); ++i) {
       const auto value = static_cast<double>(xyz.at(i, c));
       sum += value;
@@ -123,7 +121,8 @@ Result<bool> check_energy() {
   // In uniform light an object that absorbs nothing vanishes. A metal without eta reflects all.
   RenderSettings settings = furnace_settings(400);
   Scene metal = sphere_scene(Material::kConductor, {"constant:1", 1});
-  metal.metal = {"constant:0", "constant:3"};
+  metal.metal_eta = "constant:0";
+  metal.metal_k = "constant:3";
   bool good = true;
   for (const Scene& scene : {metal, sphere_scene(Material::kGlass, {"constant:1", 1}),
                              sphere_scene(Material::kDiffuse, {"constant:1", 1})}) {

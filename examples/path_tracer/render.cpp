@@ -20,7 +20,9 @@ Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::
   }
 }
 
-FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& settings) {
+}  // namespace
+
+Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
   FilmOptions options;
   options.width = options.height = static_cast<int>(settings.size);
   options.maximum_component = settings.limit;
@@ -30,13 +32,7 @@ FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& set
     options.input = FilmInput::kBands;
     options.bands = *bands;
   }
-  return options;
-}
-
-}  // namespace
-
-Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
+  SPECTILE_ASSIGN(Film film, Film::create(options));
   const std::clock_t start = std::clock();
   const std::uint64_t paths = std::uint64_t{settings.size} * settings.size * settings.samples;
   std::atomic<std::uint64_t> next = 0;

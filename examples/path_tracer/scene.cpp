@@ -50,19 +50,6 @@ Rgb bricks(const Surface& s, double u, double v) {
   return {s.first[0] * shade, s.first[1] * shade, s.first[2] * shade};
 }
 
-Hit finished(const Ray& ray, Hit hit) {
-  hit.point = ray.origin + hit.t * ray.direction;
-  if (const auto* r = std::get_if<Rectangle>(&hit.surface->shape)) {
-    hit.normal = r->normal();
-  } else {
-    const auto& s = std::get<Sphere>(hit.surface->shape);
-    hit.normal = normalized(hit.point - s.centre);
-  }
-  hit.front = dot(hit.normal, ray.direction) < 0;
-  if (!hit.front) hit.normal = -1.0 * hit.normal;
-  return hit;
-}
-
 }  // namespace
 
 Hit trace(const Scene& scene, const Ray& ray) {
@@ -71,7 +58,14 @@ Hit trace(const Scene& scene, const Ray& ray) {
     const auto d = std::visit([&](const auto& shape) { return shape.intersect(ray, hit.t); }, surface.shape);
     if (d) hit = {&surface, d->t, d->u, d->v, {}, {}, true};
   }
-  return hit.surface != nullptr ? finished(ray, hit) : hit;
+  if (hit.surface == nullptr) return hit;
+  hit.point = ray.origin + hit.t * ray.direction;
+  const auto* const rectangle = std::get_if<Rectangle>(&hit.surface->shape);
+  hit.normal = rectangle != nullptr ? rectangle->normal()
+                                    : normalized(hit.point - std::get<Sphere>(hit.surface->shape).centre);
+  hit.front = dot(hit.normal, ray.direction) < 0;
+  if (!hit.front) hit.normal = -1.0 * hit.normal;
+  return hit;
 }
 
 bool blocked(const Scene& scene, const Ray& ray, double far) {

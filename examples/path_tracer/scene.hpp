@@ -33,12 +33,6 @@ struct Lamp {
   double luminance = 0;
 };
 
-/// Optical constants by their names in the library.
-struct Metal {
-  std::string eta = "Cu-eta";
-  std::string k = "Cu-k";
-};
-
 struct Camera {
   Vec3 eye;
   Vec3 forward, right, up;  ///< the latter two as long as half the picture at distance 1
@@ -47,8 +41,7 @@ struct Camera {
 struct Scene {
   std::vector<Surface> surfaces;
   std::array<Lamp, 2> lamps;
-  Metal metal;
-  std::string glass_eta = "SF10-eta";
+  std::string metal_eta = "Cu-eta", metal_k = "Cu-k", glass_eta = "SF10-eta";  ///< names in the library
   Camera camera;
   double environment = 0;  ///< times the first lamp's radiance, from beyond all surfaces
 };

@@ -87,34 +87,30 @@ Result<SpectralScene> SpectralScene::create(const Scene& scene, Representation r
   out.representation_ = representation;
   SPECTILE_ASSIGN(const auto first, scaled_lamp(scene.lamps[0]));
   SPECTILE_ASSIGN(const auto second, scaled_lamp(scene.lamps[1]));
-  SPECTILE_ASSIGN(const auto eta, held(scene.metal.eta));
-  SPECTILE_ASSIGN(const auto k, held(scene.metal.k));
-  SPECTILE_TRY(out.prepare(scene, {first, second, eta, k}));
-  return out;
-}
-
-Result<void> SpectralScene::prepare(const Scene& scene, const std::array<Spectrum, kConstants>& spectra) {
+  SPECTILE_ASSIGN(const auto eta, held(scene.metal_eta));
+  SPECTILE_ASSIGN(const auto k, held(scene.metal_k));
+  const std::array<Spectrum, kConstants> spectra = {first, second, eta, k};
   SPECTILE_ASSIGN(const auto glass, held(scene.glass_eta));
-  SPECTILE_ASSIGN(glass_, SpectrumSampler::create(glass));
-  if (const Bands* bands = axis_.bands()) {
-    for (std::size_t i = 0; i < kConstants; ++i) bands_[i] = values_on(*bands, spectra[i]);
+  SPECTILE_ASSIGN(out.glass_, SpectrumSampler::create(glass));
+  if (const Bands* bands = out.axis_.bands()) {
+    for (std::size_t i = 0; i < kConstants; ++i) out.bands_[i] = values_on(*bands, spectra[i]);
     for (std::size_t lamp = 0; bands->weights() != nullptr && lamp < 2; ++lamp) {
       // A plan has its own values for each light, which give it luminance 1.
-      bands_[lamp].clear();
+      out.bands_[lamp].clear();
       for (const double e : bands->weights()->lights[lamp].emission) {
-        bands_[lamp].push_back(static_cast<float>(e * scene.lamps[lamp].luminance));
+        out.bands_[lamp].push_back(static_cast<float>(e * scene.lamps[lamp].luminance));
       }
     }
-    return {};
+    return out;
   }
   for (const Spectrum& spectrum : spectra) {
     SPECTILE_ASSIGN(auto sampler, SpectrumSampler::create(spectrum));
-    samplers_.push_back(std::move(sampler));
+    out.samplers_.push_back(std::move(sampler));
   }
-  if (representation_ != Representation::kLight) return {};
-  SPECTILE_ASSIGN(const auto sum, sum_of(spectra[kFirstLamp], spectra[kSecondLamp]));
-  SPECTILE_ASSIGN(distribution_, WavelengthDistribution::of_light(sum));
-  return {};
+  if (representation != Representation::kLight) return out;
+  SPECTILE_ASSIGN(const auto sum, sum_of(first, second));
+  SPECTILE_ASSIGN(out.distribution_, WavelengthDistribution::of_light(sum));
+  return out;
 }
 
 Result<PathSpectra> SpectralScene::make_paths(std::size_t lanes) const {

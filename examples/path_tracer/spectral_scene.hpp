@@ -65,7 +65,6 @@ class SpectralScene {
  private:
   enum Constant : std::size_t { kFirstLamp, kSecondLamp, kEta, kAbsorption, kConstants };
   SpectralScene(SpectralAxis axis, Atlas atlas) : axis_(std::move(axis)), atlas_(std::move(atlas)) {}
-  Result<void> prepare(const Scene& scene, const std::array<Spectrum, kConstants>& spectra);
 
   SpectralAxis axis_;
   Atlas atlas_;
