@@ -33,9 +33,8 @@ Rgb patch(double turn, int row) {
 }
 
 Rgb chart(const Surface& s, double u, double v) {
-  constexpr double kRows = 6;
   const double x = std::min(u, 0.999999) * s.repeats;
-  const double y = std::min(v, 0.999999) * kRows;
+  const double y = std::min(v, 0.999999) * 6;
   if (std::max(std::abs(x - std::floor(x) - 0.5), std::abs(y - std::floor(y) - 0.5)) > 0.4) return s.first;
   return patch(std::floor(x) / s.repeats, static_cast<int>(y));
 }
@@ -110,8 +109,7 @@ Scene box_scene() {
       {Sphere{{-0.48, 0.42, -0.30}, 0.42}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
       {Sphere{{0.32, 0.66, 0.12}, 0.38}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
   };
-  const double half = 0.36;
-  scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {half, 0, 0}, {0, half, 0}};
+  scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {0.36, 0, 0}, {0, 0.36, 0}};
   return scene;
 }
 
@@ -124,6 +122,10 @@ Scene furnace_scene(Rgb albedo) {
     s.first = albedo;
     s.lamp = 0;
   }
+  // Unseen, of other colours: neighbours in the atlas, so that a wrong texel shows.
+  const Surface other = wall({9, 9, 9}, {1, 0, 0}, {0, 1, 0}, Pattern::kPlain, {0.9F, 0.1F, 0.9F}, {}, 1);
+  for (std::size_t i = scene.surfaces.size(); i > 0; --i)
+    scene.surfaces.insert(scene.surfaces.begin() + static_cast<std::ptrdiff_t>(i), other);
   scene.lamps = {Lamp{"constant:1", 1}, Lamp{"constant:1", 1}};
   scene.camera = {{0, 1, 0.9}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
   return scene;
