@@ -19,21 +19,26 @@ bool below(const char* subject, double value, double bound) {
   return report(subject, value, "at most", bound, value <= bound);
 }
 
+/// Renders and develops the spectrum of each pixel in bands.
+Result<FilmDevelopment> spectral_picture(const Scene& scene, Representation representation,
+                                         RenderSettings settings, const Bands& bands) {
+  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, representation));
+  settings.kept = bands;
+  SPECTILE_ASSIGN(const auto rendered, render(scene, spectra, settings));
+  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(rendered.film, FilmLayer::kSpectrum));
+  SPECTILE_TRY(layer.update(kOneThread));
+  return layer;
+}
+
 /// Mean radiance of each pixel over all wavelengths, each weighed by one over its density: 1 without noise
 /// where every wavelength carries 1, which colours are not.
 Result<std::vector<double>> mean_radiances(const Scene& scene, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kVisible));
-  FilmOptions options = film_options(spectra, settings);
-  options.spectral = true;
-  SPECTILE_ASSIGN(options.bands,
+  SPECTILE_ASSIGN(const auto all,
                   Bands::uniform(kFirstVisibleNm, kLastVisibleNm, kLastVisibleNm - kFirstVisibleNm));
-  SPECTILE_ASSIGN(Film film, Film::create(options));
-  SPECTILE_ASSIGN([[maybe_unused]] const Times times, render(scene, spectra, settings, film));
-  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kSpectrum));
-  SPECTILE_TRY(layer.update(kOneThread));
+  SPECTILE_ASSIGN(const auto layer, spectral_picture(scene, Representation::kVisible, settings, all));
   std::vector<double> out;
-  for (int y = 0; y < layer.height(); ++y) {
-    for (int x = 0; x < layer.width(); ++x) out.push_back(static_cast<double>(layer.at(0, x, y)));
+  for (int i = 0; i < layer.width() * layer.height(); ++i) {
+    out.push_back(static_cast<double>(layer.at(0, i % layer.width(), i / layer.width())));
   }
   return out;
 }
@@ -44,19 +49,12 @@ double largest_deviation(const std::vector<double>& values, double expected) {
   return largest;
 }
 
-RenderSettings small(std::uint32_t size, std::uint32_t samples) {
-  RenderSettings settings;
-  settings.size = size;
-  settings.samples = samples;
-  return settings;
-}
-
 RenderSettings furnace_settings(std::uint32_t depth) {
-  RenderSettings settings = small(16, 16);
-  settings.roulette_from = RenderSettings::kNever;
-  settings.next_event = false;
-  settings.max_depth = depth;
-  return settings;
+  return {.size = 16,
+          .samples = 16,
+          .max_depth = depth,
+          .roulette_from = RenderSettings::kNever,
+          .next_event = false};
 }
 
 /// Light off `depth` surfaces of a closed furnace: the sum of rho^i below the depth, the limit of which is
@@ -77,22 +75,16 @@ Result<bool> check_furnace() {
   }
   // A colour, band by band: the film keeps the spectrum.
   const Rgb color = {0.7F, 0.3F, 0.1F};
-  const Scene scene = furnace_scene(color);
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kEven));
-  FilmOptions options = film_options(spectra, settings);
-  options.spectral = true;
-  SPECTILE_ASSIGN(Film film, Film::create(options));
-  SPECTILE_ASSIGN([[maybe_unused]] const Times times, render(scene, spectra, settings, film));
-  SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kSpectrum));
-  SPECTILE_TRY(layer.update(kOneThread));
-  SPECTILE_ASSIGN(const auto upsampler,
-                  Upsampler::create(kDefaultMethod, Quantity::kReflectance, options.bands));
+  const Bands bands;
+  SPECTILE_ASSIGN(const auto layer,
+                  spectral_picture(furnace_scene(color), Representation::kEven, settings, bands));
+  SPECTILE_ASSIGN(const auto upsampler, Upsampler::create(kDefaultMethod, Quantity::kReflectance, bands));
   SPECTILE_ASSIGN(const auto rho,
                   rgb_spectrum(upsampler, {static_cast<double>(color[0]), static_cast<double>(color[1]),
                                            static_cast<double>(color[2])}));
   double largest = 0;
-  for (std::size_t k = 0; k < options.bands.count(); ++k) {
-    const double expected = furnace_radiance(rho(options.bands[k].centre_nm), kDepth);
+  for (std::size_t k = 0; k < bands.count(); ++k) {
+    const double expected = furnace_radiance(rho(bands[k].centre_nm), kDepth);
     for (int i = 0; i < layer.width(); ++i) {
       largest = std::max(largest, std::abs(static_cast<double>(layer.at(k, i, i)) / expected - 1));
     }
@@ -100,22 +92,37 @@ Result<bool> check_furnace() {
   return good & below("coloured furnace, largest relative deviation", largest, kFloatTolerance);
 }
 
-/// Mean Y of the box, with lamps sampled or hit by chance.
-Result<double> mean_luminance(const Scene& scene, RenderSettings settings, bool next_event) {
-  settings.next_event = next_event;
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kLight));
+/// Mean Y, and the sum of the variances of X, Y and Z over pixels, each relative to its mean squared.
+struct ColorNoise {
+  double mean_y = 0, variance = 0;
+};
+
+Result<ColorNoise> color_noise(const Scene& scene, Representation representation,
+                               const RenderSettings& settings) {
+  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, representation));
   SPECTILE_ASSIGN(const auto rendered, render(scene, spectra, settings));
   SPECTILE_ASSIGN(const auto xyz, xyz_of(rendered.film));
-  double sum = 0;
-  for (std::size_t i = 0; i < xyz.lanes(); ++i) sum += static_cast<double>(xyz.at(i, 1));
-  return sum / static_cast<double>(xyz.lanes());
+  const auto pixels = static_cast<double>(xyz.lanes());
+  ColorNoise out;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < xyz.lanes(); ++i) {
+      const auto value = static_cast<double>(xyz.at(i, c));
+      sum += value;
+      squares += value * value;
+    }
+    if (c == 1) out.mean_y = sum / pixels;
+    out.variance += squares * pixels / (sum * sum) - 1;
+  }
+  return out;
 }
 
 Result<bool> check_energy() {
   // In uniform light an object that absorbs nothing vanishes. A metal without eta reflects all.
   RenderSettings settings = furnace_settings(400);
   Scene metal = sphere_scene(Material::kConductor, {"constant:1", 1});
-  metal.metal = {"constant:0", "constant:3"};
+  metal.metal_eta = "constant:0";
+  metal.metal_k = "constant:3";
   bool good = true;
   for (const Scene& scene : {metal, sphere_scene(Material::kGlass, {"constant:1", 1}),
                              sphere_scene(Material::kDiffuse, {"constant:1", 1})}) {
@@ -136,18 +143,18 @@ Result<bool> check_energy() {
     if (s.lamp >= 0) s.shape = Rectangle({s.lamp == 0 ? -0.8 : 0.2, 1.9, -0.8}, {0.6, 0, 0}, {0, 0, 1.6});
   }
   lit.lamps[1].luminance *= 0.5;
-  const RenderSettings many = small(32, 256);
-  SPECTILE_ASSIGN(const double sampled, mean_luminance(lit, many, true));
-  SPECTILE_ASSIGN(const double hit, mean_luminance(lit, many, false));
-  return good & below("lamps sampled against hit, relative difference", std::abs(sampled / hit - 1), 0.01);
+  RenderSettings many = {.size = 32, .samples = 256};
+  SPECTILE_ASSIGN(const auto sampled, color_noise(lit, Representation::kLight, many));
+  many.next_event = false;
+  SPECTILE_ASSIGN(const auto hit, color_noise(lit, Representation::kLight, many));
+  return good & below("lamps sampled against hit, relative difference",
+                      std::abs(sampled.mean_y / hit.mean_y - 1), 0.01);
 }
 
 Result<bool> check_bits() {
   const Scene scene = box_scene();
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kLight));
-  RenderSettings settings = small(40, 16);
-  settings.threads = 1;
-  settings.batch = 64;
+  RenderSettings settings = {.size = 40, .samples = 16, .threads = 1, .batch = 64};
   SPECTILE_ASSIGN(const auto first, render(scene, spectra, settings));
   bool good = true;
   for (const std::size_t threads : {1U, 8U}) {
@@ -175,8 +182,7 @@ double squared_difference(const ColorLanes& a, const ColorLanes& b) {
 Result<bool> check_convergence() {
   const Scene scene = box_scene();
   SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, Representation::kLight));
-  RenderSettings settings = small(16, 4096);
-  settings.seed = 1;
+  RenderSettings settings = {.size = 16, .samples = 4096, .seed = 1};
   settings.limit = 6;  // of all pictures, so that no few paths from matt to glass to lamp decide the slope
   SPECTILE_ASSIGN(const auto reference, render(scene, spectra, settings));
   SPECTILE_ASSIGN(const auto expected, xyz_of(reference.film));
@@ -202,48 +208,25 @@ Result<bool> check_convergence() {
   return report("slope", slope, "from -0.5 by at most", 0.05, std::abs(slope + 0.5) <= 0.05);
 }
 
-/// Mean Y, and the sum of the variances of X, Y and Z over pixels of one sample, each relative to its mean
-/// squared.
-struct ColorNoise {
-  double mean_y = 0;
-  double variance = 0;
-};
-
 /// Of a sphere that fills the picture, in light of FL11 from everywhere: all noise is of wavelengths.
-Result<ColorNoise> color_noise(Material material, Representation representation) {
+Result<ColorNoise> sphere_noise(Material material, Representation representation) {
   Scene scene = sphere_scene(material, {"FL11", 1});
   for (Vec3* axis : {&scene.camera.right, &scene.camera.up}) *axis = 0.5 * *axis;
-  SPECTILE_ASSIGN(const auto spectra, SpectralScene::create(scene, representation));
   RenderSettings settings = furnace_settings(64);
   settings.size = 128;
   settings.samples = 1;
-  SPECTILE_ASSIGN(const auto rendered, render(scene, spectra, settings));
-  SPECTILE_ASSIGN(const auto xyz, xyz_of(rendered.film));
-  const auto pixels = static_cast<double>(xyz.lanes());
-  ColorNoise out;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double sum = 0;
-    double squares = 0;
-    for (std::size_t i = 0; i < xyz.lanes(); ++i) {
-      const auto value = static_cast<double>(xyz.at(i, c));
-      sum += value;
-      squares += value * value;
-    }
-    if (c == 1) out.mean_y = sum / pixels;
-    out.variance += squares * pixels / (sum * sum) - 1;
-  }
-  return out;
+  return color_noise(scene, representation, settings);
 }
 
 Result<bool> check_variance() {
-  SPECTILE_ASSIGN(const auto uniform, color_noise(Material::kDiffuse, Representation::kUniform));
-  SPECTILE_ASSIGN(const auto light, color_noise(Material::kDiffuse, Representation::kLight));
+  SPECTILE_ASSIGN(const auto uniform, sphere_noise(Material::kDiffuse, Representation::kUniform));
+  SPECTILE_ASSIGN(const auto light, sphere_noise(Material::kDiffuse, Representation::kLight));
   std::printf("  colour variance of white, uniform %.3f, of the light %.3f\n", uniform.variance,
               light.variance);
   bool good = below("light over uniform", light.variance / uniform.variance, 0.5);
   // Glass leaves one wavelength, or band: as much light, and more noise.
-  SPECTILE_ASSIGN(const auto glass, color_noise(Material::kGlass, Representation::kLight));
-  SPECTILE_ASSIGN(const auto banded, color_noise(Material::kGlass, Representation::kEven));
+  SPECTILE_ASSIGN(const auto glass, sphere_noise(Material::kGlass, Representation::kLight));
+  SPECTILE_ASSIGN(const auto banded, sphere_noise(Material::kGlass, Representation::kEven));
   good &= below("white over glass, colour variance", light.variance / glass.variance, 0.5);
   good &= below("glass, relative difference of Y", std::abs(glass.mean_y / light.mean_y - 1), 0.05);
   return good &

@@ -82,11 +82,7 @@ bool parse(std::span<char*> arguments, Options& out) {
 
 /// The first lamp's white becomes that of sRGB, so that the other's light has its tint beside it.
 Result<void> write_picture(const Scene& scene, const Film& film, const std::string& path) {
-  SPECTILE_ASSIGN(const auto lamp, named_spectrum(scene.lamps[0].spectrum));
-  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
-  std::array<double, 3> white = observer.response(lamp);
-  const double y = white[1];
-  for (double& component : white) component /= y;
+  SPECTILE_ASSIGN(const auto white, white_of(scene.lamps[0]));
   const auto adapted = adaptation_matrix(Adaptation::kBradford, white, chromaticity_to_xyz(kRec709.white));
   SPECTILE_ASSIGN(auto rgb, xyz_of(film));
   SPECTILE_TRY(transform(product(xyz_to_srgb_matrix(), adapted), rgb, rgb));

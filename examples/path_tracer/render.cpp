@@ -22,19 +22,18 @@ Result<Times> work(Wavefront& wavefront, std::atomic<std::uint64_t>& next, std::
 
 }  // namespace
 
-FilmOptions film_options(const SpectralScene& spectra, const RenderSettings& settings) {
+Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
   FilmOptions options;
   options.width = options.height = static_cast<int>(settings.size);
   options.maximum_component = settings.limit;
+  options.spectral = settings.kept.has_value();
+  if (settings.kept) options.bands = *settings.kept;
   if (const Bands* bands = spectra.axis().bands()) {
     options.input = FilmInput::kBands;
     options.bands = *bands;
   }
-  return options;
-}
-
-Result<Times> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings,
-                     Film& film) {
+  SPECTILE_ASSIGN(Film film, Film::create(options));
+  const std::clock_t start = std::clock();
   const std::uint64_t paths = std::uint64_t{settings.size} * settings.size * settings.samples;
   std::atomic<std::uint64_t> next = 0;
   std::vector<Wavefront> wavefronts;
@@ -55,28 +54,26 @@ Result<Times> render(const Scene& scene, const SpectralScene& spectra, const Ren
     sum.film += result->film;
     sum.all += result->all;
   }
-  return sum;
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return Rendered{std::move(film), sum, seconds, spectra.atlas().texture().cache_stats()};
 }
 
-Result<Rendered> render(const Scene& scene, const SpectralScene& spectra, const RenderSettings& settings) {
-  SPECTILE_ASSIGN(Film film, Film::create(film_options(spectra, settings)));
-  const std::clock_t start = std::clock();
-  SPECTILE_ASSIGN(const Times times, render(scene, spectra, settings, film));
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return Rendered{std::move(film), times, seconds};
+Result<std::array<double, 3>> white_of(const Lamp& lamp) {
+  SPECTILE_ASSIGN(const auto spectrum, named_spectrum(lamp.spectrum));
+  SPECTILE_ASSIGN(const auto observer, Sensor::named("cie1931"));
+  const std::array<double, 3> xyz = observer.response(spectrum);
+  return std::array<double, 3>{xyz[0] / xyz[1], 1, xyz[2] / xyz[1]};
 }
 
 Result<ColorLanes> xyz_of(const Film& film) {
   SPECTILE_ASSIGN(auto layer, FilmDevelopment::create(film, FilmLayer::kXyz));
   SPECTILE_TRY(layer.update(kOneThread));
-  const auto width = static_cast<std::size_t>(layer.width());
-  const auto height = static_cast<std::size_t>(layer.height());
-  SPECTILE_ASSIGN(auto xyz, ColorLanes::create(width * height));
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t y = 0; y < height; ++y) {
-      for (std::size_t x = 0; x < width; ++x)
-        xyz.at(y * width + x, c) = layer.plane(c)[y * layer.stride() + x];
-    }
+  const int width = layer.width();
+  const int pixels = width * layer.height();
+  SPECTILE_ASSIGN(auto xyz, ColorLanes::create(static_cast<std::size_t>(pixels)));
+  for (int i = 0; i < pixels; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      xyz.at(static_cast<std::size_t>(i), c) = layer.at(c, i % width, i / width);
   }
   return xyz;
 }

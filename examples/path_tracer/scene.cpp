@@ -33,9 +33,8 @@ Rgb patch(double turn, int row) {
 }
 
 Rgb chart(const Surface& s, double u, double v) {
-  constexpr double kRows = 6;
   const double x = std::min(u, 0.999999) * s.repeats;
-  const double y = std::min(v, 0.999999) * kRows;
+  const double y = std::min(v, 0.999999) * 6;
   if (std::max(std::abs(x - std::floor(x) - 0.5), std::abs(y - std::floor(y) - 0.5)) > 0.4) return s.first;
   return patch(std::floor(x) / s.repeats, static_cast<int>(y));
 }
@@ -50,19 +49,6 @@ Rgb bricks(const Surface& s, double u, double v) {
   return {s.first[0] * shade, s.first[1] * shade, s.first[2] * shade};
 }
 
-Hit finished(const Ray& ray, Hit hit) {
-  hit.point = ray.origin + hit.t * ray.direction;
-  if (const auto* r = std::get_if<Rectangle>(&hit.surface->shape)) {
-    hit.normal = r->normal();
-  } else {
-    const auto& s = std::get<Sphere>(hit.surface->shape);
-    hit.normal = normalized(hit.point - s.centre);
-  }
-  hit.front = dot(hit.normal, ray.direction) < 0;
-  if (!hit.front) hit.normal = -1.0 * hit.normal;
-  return hit;
-}
-
 }  // namespace
 
 Hit trace(const Scene& scene, const Ray& ray) {
@@ -71,7 +57,14 @@ Hit trace(const Scene& scene, const Ray& ray) {
     const auto d = std::visit([&](const auto& shape) { return shape.intersect(ray, hit.t); }, surface.shape);
     if (d) hit = {&surface, d->t, d->u, d->v, {}, {}, true};
   }
-  return hit.surface != nullptr ? finished(ray, hit) : hit;
+  if (hit.surface == nullptr) return hit;
+  hit.point = ray.origin + hit.t * ray.direction;
+  const auto* const rectangle = std::get_if<Rectangle>(&hit.surface->shape);
+  hit.normal = rectangle != nullptr ? rectangle->normal()
+                                    : normalized(hit.point - std::get<Sphere>(hit.surface->shape).centre);
+  hit.front = dot(hit.normal, ray.direction) < 0;
+  if (!hit.front) hit.normal = -1.0 * hit.normal;
+  return hit;
 }
 
 bool blocked(const Scene& scene, const Ray& ray, double far) {
@@ -82,21 +75,18 @@ bool blocked(const Scene& scene, const Ray& ray, double far) {
 }
 
 Rgb albedo(const Surface& surface, double u, double v) {
+  const double x = u * surface.repeats;
   switch (surface.pattern) {
     case Pattern::kPlain:
       break;
-    case Pattern::kChecker: {
-      const bool odd = (cell(u * surface.repeats) + cell(v * surface.repeats)) % 2 != 0;
-      return odd ? surface.second : surface.first;
-    }
+    case Pattern::kChecker:
+      return (cell(x) + cell(v * surface.repeats)) % 2 != 0 ? surface.second : surface.first;
     case Pattern::kBricks:
       return bricks(surface, u, v);
     case Pattern::kChart:
       return chart(surface, u, v);
-    case Pattern::kPlanks: {
-      const double x = u * surface.repeats;
+    case Pattern::kPlanks:
       return x - std::floor(x) < 0.5 ? surface.first : surface.second;
-    }
   }
   return surface.first;
 }
@@ -119,8 +109,7 @@ Scene box_scene() {
       {Sphere{{-0.48, 0.42, -0.30}, 0.42}, Material::kConductor, Pattern::kPlain, {}, {}, 1, -1},
       {Sphere{{0.32, 0.66, 0.12}, 0.38}, Material::kGlass, Pattern::kPlain, {}, {}, 1, -1},
   };
-  const double half = 0.36;
-  scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {half, 0, 0}, {0, half, 0}};
+  scene.camera = {{0, 1, 3.75}, {0, 0, -1}, {0.36, 0, 0}, {0, 0.36, 0}};
   return scene;
 }
 
@@ -133,6 +122,10 @@ Scene furnace_scene(Rgb albedo) {
     s.first = albedo;
     s.lamp = 0;
   }
+  // Unseen, of other colours: neighbours in the atlas, so that a wrong texel shows.
+  const Surface other = wall({9, 9, 9}, {1, 0, 0}, {0, 1, 0}, Pattern::kPlain, {0.9F, 0.1F, 0.9F}, {}, 1);
+  for (std::size_t i = scene.surfaces.size(); i > 0; --i)
+    scene.surfaces.insert(scene.surfaces.begin() + static_cast<std::ptrdiff_t>(i), other);
   scene.lamps = {Lamp{"constant:1", 1}, Lamp{"constant:1", 1}};
   scene.camera = {{0, 1, 0.9}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
   return scene;

@@ -33,12 +33,6 @@ struct Lamp {
   double luminance = 0;
 };
 
-/// Optical constants by their names in the library.
-struct Metal {
-  std::string eta = "Cu-eta";
-  std::string k = "Cu-k";
-};
-
 struct Camera {
   Vec3 eye;
   Vec3 forward, right, up;  ///< the latter two as long as half the picture at distance 1
@@ -47,8 +41,7 @@ struct Camera {
 struct Scene {
   std::vector<Surface> surfaces;
   std::array<Lamp, 2> lamps;
-  Metal metal;
-  std::string glass_eta = "SF10-eta";
+  std::string metal_eta = "Cu-eta", metal_k = "Cu-k", glass_eta = "SF10-eta";  ///< names in the library
   Camera camera;
   double environment = 0;  ///< times the first lamp's radiance, from beyond all surfaces
 };
@@ -64,7 +57,7 @@ struct Hit {
 Hit trace(const Scene& scene, const Ray& ray);
 bool blocked(const Scene& scene, const Ray& ray, double far);
 
-/// The only place that knows textures: linear sRGB of a diffuse surface at u, v.
+/// Linear sRGB of a surface at u, v, which the atlas is painted with.
 Rgb albedo(const Surface& surface, double u, double v);
 
 /// The box of the picture: two lamps, a copper and a glass sphere, textured walls.

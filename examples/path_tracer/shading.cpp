@@ -22,26 +22,16 @@ void Wavefront::trace_lane(std::size_t lane, std::uint32_t depth) {
     lamp_[lane] = static_cast<float>(hit.surface->lamp);
     any_emitted_ = true;
   }
-  switch (hit.surface->material) {
-    case Material::kDiffuse:
-      return shade_diffuse(lane, hit, depth);
-    case Material::kConductor:
-      metals_.push_back({lane, hit});
-      return;
-    case Material::kGlass:
-      glasses_.push_back({lane, hit});
-      return;
-  }
+  if (hit.surface->material == Material::kDiffuse) return shade_diffuse(lane, hit, depth);
+  (hit.surface->material == Material::kConductor ? metals_ : glasses_).push_back({lane, hit});
 }
 
 void Wavefront::shade_diffuse(std::size_t lane, const Hit& hit, std::uint32_t depth) {
   Path& path = paths_[lane];
-  const Rgb color = albedo(*hit.surface, hit.u, hit.v);
-  for (std::size_t c = 0; c < 3; ++c) rgb_.at(lane, c) = color[c];
-  if (color == Rgb{}) {
-    path.alive = false;
-    return;
-  }
+  const auto surface = static_cast<std::size_t>(hit.surface - scene_->surfaces.data());
+  const auto [u, v] = spectra_->atlas().point(surface, hit.u, hit.v);
+  texture_u_[lane] = u;
+  texture_v_[lane] = v;
   if (!lights_.empty()) sample_lamp(lane, hit, depth);
   // The cosine over pi in this density is that of the reflected light, so that the lane's density stays 1.
   const Vec3 d = cosine_direction(hit.normal, path.random(dimension(depth, kDirectionU)),
@@ -77,7 +67,10 @@ Result<void> Wavefront::shade_metals() {
       metal_spectra_.lambda.at(j, k) = s_.wavelengths.lambda_nm.at(metals_[j].lane, k);
     }
   }
-  SPECTILE_TRY(timed([&] { return spectra_->look_up(metal_spectra_, metals_.size()); }));
+  {
+    const Clock engine{times_.engine};
+    SPECTILE_TRY(spectra_->look_up_metals(metal_spectra_, metals_.size()));
+  }
   for (std::size_t j = 0; j < metals_.size(); ++j) {
     const auto& [lane, hit] = metals_[j];
     Path& path = paths_[lane];
@@ -120,10 +113,11 @@ void Wavefront::choose_wavelengths(std::uint32_t depth) {
 Result<void> Wavefront::shade_glasses(std::uint32_t depth) {
   if (glasses_.empty()) return {};
   choose_wavelengths(depth);
-  if (!spectra_->on_bands()) {
-    SPECTILE_TRY(timed([&] { return terminate_secondary(s_.wavelengths, glass_mask_); }));
+  {
+    const Clock engine{times_.engine};
+    if (!spectra_->on_bands()) SPECTILE_TRY(terminate_secondary(s_.wavelengths, glass_mask_));
+    SPECTILE_TRY(spectra_->look_up_glasses(glass_spectra_, glasses_.size()));
   }
-  SPECTILE_TRY(timed([&] { return spectra_->look_up(glass_spectra_, glasses_.size()); }));
   for (std::size_t j = 0; j < glasses_.size(); ++j) {
     const auto& [lane, hit] = glasses_[j];
     Path& path = paths_[lane];

@@ -8,15 +8,12 @@ namespace tracer {
 namespace {
 
 /// A lamp scaled so that the observer's Y is its luminance.
-Result<MeasuredSpectrum> scaled_lamp(const Lamp& lamp) {
+Result<Spectrum> scaled_lamp(const Lamp& lamp) {
   SPECTILE_ASSIGN(const auto spectrum, named_spectrum(lamp.spectrum));
   SPECTILE_ASSIGN(const auto y, named_spectrum("cie1931-y"));
   SPECTILE_ASSIGN(const auto table, tabulated(spectrum));
-  return table.scaled(lamp.luminance * y.integral() / inner_product(spectrum, y));
-}
-
-Spectrum spectrum_of(const MeasuredSpectrum& lamp) {
-  return PiecewiseLinearSpectrum(lamp, Ends::kZero);
+  const double factor = lamp.luminance * y.integral() / inner_product(spectrum, y);
+  return Spectrum(PiecewiseLinearSpectrum(table.scaled(factor), Ends::kZero));
 }
 
 /// A named index of refraction, which keeps its outer values beyond its table: SF10's begins at 380 nm.
@@ -42,9 +39,10 @@ Result<Spectrum> sum_of(const Spectrum& a, const Spectrum& b) {
 /// of values at a wavelength stay values, while products of averages are not averages.
 Result<Bands> bands_for(const Scene& scene) {
   PlannerOptions options;
-  for (const Lamp& lamp : scene.lamps) {
-    SPECTILE_ASSIGN(const auto light, named_spectrum(lamp.spectrum));
-    SPECTILE_ASSIGN(auto named, named_light(lamp.spectrum, light));
+  // The upsampler makes spectra whose colours are those of the textures under D65.
+  for (const std::string& name : {scene.lamps[0].spectrum, scene.lamps[1].spectrum, std::string("D65")}) {
+    SPECTILE_ASSIGN(const auto light, named_spectrum(name));
+    SPECTILE_ASSIGN(auto named, named_light(name, light));
     options.lights.push_back(std::move(named));
   }
   for (const NamedSpectrumInfo& info : named_spectra()) {
@@ -52,10 +50,6 @@ Result<Bands> bands_for(const Scene& scene) {
     SPECTILE_ASSIGN(auto patch, named_spectrum(info.name));
     options.reflectances.push_back(std::move(patch));
   }
-  // The upsampler makes spectra whose colours are those of the textures under D65.
-  SPECTILE_ASSIGN(const auto white, named_spectrum("D65"));
-  SPECTILE_ASSIGN(auto named_white, named_light("D65", white));
-  options.lights.push_back(std::move(named_white));
   options.sampling = BandSampling::kPoints;
   options.bands = kPlannedBands;
   options.bounces = 2;
@@ -65,21 +59,12 @@ Result<Bands> bands_for(const Scene& scene) {
 }
 
 Result<SpectralAxis> axis_of(const Scene& scene, Representation representation) {
-  switch (representation) {
-    case Representation::kEven:
-      return SpectralAxis(Bands());
-    case Representation::kPlanned: {
-      SPECTILE_ASSIGN(const auto bands, bands_for(scene));
-      return SpectralAxis(bands);
-    }
-    case Representation::kReference: {
-      SPECTILE_ASSIGN(const auto bands, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
-      return SpectralAxis(bands);
-    }
-    case Representation::kUniform:
-    case Representation::kVisible:
-    case Representation::kLight:
-      break;
+  if (representation == Representation::kEven) return SpectralAxis(Bands());
+  const bool planned = representation == Representation::kPlanned;
+  if (planned || representation == Representation::kReference) {
+    SPECTILE_ASSIGN(const auto bands,
+                    planned ? bands_for(scene) : Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
+    return SpectralAxis(bands);
   }
   return SpectralAxis::own_wavelengths(kWavelengths);
 }
@@ -97,40 +82,35 @@ Result<SpectralScene> SpectralScene::create(const Scene& scene, Representation r
   SPECTILE_ASSIGN(const auto axis, axis_of(scene, representation));
   // Paths with wavelengths of their own have the reference's reflectances: those of bands of a nanometre.
   SPECTILE_ASSIGN(const auto fine, Bands::uniform(kFirstVisibleNm, kLastVisibleNm, 1));
-  SPECTILE_ASSIGN(auto upsampler, Upsampler::create(kDefaultMethod, Quantity::kReflectance,
-                                                    axis.bands() != nullptr ? *axis.bands() : fine));
-  SpectralScene out(axis, std::move(upsampler));
+  SPECTILE_ASSIGN(auto atlas, Atlas::create(scene, axis.bands() != nullptr ? *axis.bands() : fine));
+  SpectralScene out(axis, std::move(atlas));
   out.representation_ = representation;
   SPECTILE_ASSIGN(const auto first, scaled_lamp(scene.lamps[0]));
   SPECTILE_ASSIGN(const auto second, scaled_lamp(scene.lamps[1]));
-  SPECTILE_ASSIGN(const auto eta, held(scene.metal.eta));
-  SPECTILE_ASSIGN(const auto k, held(scene.metal.k));
-  SPECTILE_TRY(out.prepare(scene, {spectrum_of(first), spectrum_of(second), eta, k}));
-  return out;
-}
-
-Result<void> SpectralScene::prepare(const Scene& scene, const std::array<Spectrum, kConstants>& spectra) {
+  SPECTILE_ASSIGN(const auto eta, held(scene.metal_eta));
+  SPECTILE_ASSIGN(const auto k, held(scene.metal_k));
+  const std::array<Spectrum, kConstants> spectra = {first, second, eta, k};
   SPECTILE_ASSIGN(const auto glass, held(scene.glass_eta));
-  SPECTILE_ASSIGN(glass_, SpectrumSampler::create(glass));
-  if (const Bands* bands = axis_.bands()) {
-    for (std::size_t i = 0; i < kConstants; ++i) bands_[i] = values_on(*bands, spectra[i]);
+  SPECTILE_ASSIGN(out.glass_, SpectrumSampler::create(glass));
+  if (const Bands* bands = out.axis_.bands()) {
+    for (std::size_t i = 0; i < kConstants; ++i) out.bands_[i] = values_on(*bands, spectra[i]);
     for (std::size_t lamp = 0; bands->weights() != nullptr && lamp < 2; ++lamp) {
       // A plan has its own values for each light, which give it luminance 1.
-      bands_[lamp].clear();
+      out.bands_[lamp].clear();
       for (const double e : bands->weights()->lights[lamp].emission) {
-        bands_[lamp].push_back(static_cast<float>(e * scene.lamps[lamp].luminance));
+        out.bands_[lamp].push_back(static_cast<float>(e * scene.lamps[lamp].luminance));
       }
     }
-    return {};
+    return out;
   }
   for (const Spectrum& spectrum : spectra) {
     SPECTILE_ASSIGN(auto sampler, SpectrumSampler::create(spectrum));
-    samplers_.push_back(std::move(sampler));
+    out.samplers_.push_back(std::move(sampler));
   }
-  if (representation_ != Representation::kLight) return {};
-  SPECTILE_ASSIGN(const auto sum, sum_of(spectra[kFirstLamp], spectra[kSecondLamp]));
-  SPECTILE_ASSIGN(distribution_, WavelengthDistribution::of_light(sum));
-  return {};
+  if (representation != Representation::kLight) return out;
+  SPECTILE_ASSIGN(const auto sum, sum_of(first, second));
+  SPECTILE_ASSIGN(out.distribution_, WavelengthDistribution::of_light(sum));
+  return out;
 }
 
 Result<PathSpectra> SpectralScene::make_paths(std::size_t lanes) const {
@@ -142,17 +122,14 @@ Result<PathSpectra> SpectralScene::make_paths(std::size_t lanes) const {
     SPECTILE_ASSIGN(*batch, SampledSpectra::create(axis_, lanes));
   }
   for (std::size_t lamp = 0; lamp < 2; ++lamp) {
-    if (on_bands()) {
-      SPECTILE_ASSIGN(out.lamps[lamp], SampledSpectra::broadcast(axis_, lanes, bands_[lamp]));
-    } else {
-      SPECTILE_ASSIGN(out.lamps[lamp], SampledSpectra::create(axis_, lanes));
-    }
+    SPECTILE_ASSIGN(out.lamps[lamp], on_bands() ? SampledSpectra::broadcast(axis_, lanes, bands_[lamp])
+                                                : SampledSpectra::create(axis_, lanes));
   }
   return out;
 }
 
-Result<MetalSpectra> SpectralScene::make_metals(std::size_t lanes) const {
-  MetalSpectra out;
+Result<OpticalConstants> SpectralScene::make_metals(std::size_t lanes) const {
+  OpticalConstants out;
   if (on_bands()) {
     SPECTILE_ASSIGN(out.eta, SampledSpectra::broadcast(axis_, 1, bands_[kEta]));
     SPECTILE_ASSIGN(out.k, SampledSpectra::broadcast(axis_, 1, bands_[kAbsorption]));
@@ -164,8 +141,8 @@ Result<MetalSpectra> SpectralScene::make_metals(std::size_t lanes) const {
   return out;
 }
 
-Result<GlassSpectra> SpectralScene::make_glasses(std::size_t lanes) const {
-  GlassSpectra out;
+Result<OpticalConstants> SpectralScene::make_glasses(std::size_t lanes) const {
+  OpticalConstants out;
   SPECTILE_ASSIGN(const auto one, SpectralAxis::own_wavelengths(1));
   SPECTILE_ASSIGN(out.lambda, SampledSpectra::create(one, lanes));
   SPECTILE_ASSIGN(out.eta, SampledSpectra::create(one, lanes));
@@ -193,41 +170,38 @@ Result<void> SpectralScene::start(LanesView u, PathSpectra& paths) const {
   return {};
 }
 
-Result<void> SpectralScene::reflectances(ColorView rgb, const PathSpectra& paths,
+Result<void> SpectralScene::reflectances(const TexturePoints& at, const PathSpectra& paths,
                                          SampledSpectraSpan scattering) const {
-  if (on_bands()) return upsample_srgb(upsampler_, rgb, scattering, StoreHint::kCached, kOneThread);
-  return upsample_srgb(upsampler_, rgb, paths.wavelengths.lambda_nm.view().range(0, rgb.lanes), scattering,
-                       kOneThread);
+  const SpectralTexture& texture = atlas_.texture();
+  if (on_bands()) return texture.sample(at, scattering, {}, kOneThread);
+  return texture.sample(at, paths.wavelengths.lambda_nm.view().range(0, scattering.lanes), scattering, {},
+                        kOneThread);
 }
 
-Result<void> SpectralScene::look_up(MetalSpectra& metals, std::size_t lanes) const {
+Result<void> SpectralScene::look_up_metals(OpticalConstants& metals, std::size_t lanes) const {
   if (on_bands()) return {};
   const SampledSpectraView lambda = metals.lambda.view().range(0, lanes);
   SPECTILE_TRY(samplers_[kEta].sample(lambda, metals.eta.span().range(0, lanes), kOneThread));
   return samplers_[kAbsorption].sample(lambda, metals.k.span().range(0, lanes), kOneThread);
 }
 
-Result<void> SpectralScene::look_up(GlassSpectra& glasses, std::size_t lanes) const {
+Result<void> SpectralScene::look_up_glasses(OpticalConstants& glasses, std::size_t lanes) const {
   return glass_->sample(glasses.lambda.view().range(0, lanes), glasses.eta.span().range(0, lanes),
                         kOneThread);
 }
 
 namespace {
-constexpr std::pair<std::string_view, Representation> kNames[] = {
-    {"uniform", Representation::kUniform}, {"visible", Representation::kVisible},
-    {"light", Representation::kLight},     {"even", Representation::kEven},
-    {"planned", Representation::kPlanned}, {"reference", Representation::kReference},
-};
+constexpr std::string_view kNames[] = {"uniform", "visible", "light", "even", "planned", "reference"};
 }  // namespace
 
 std::optional<Representation> parse_representation(std::string_view name) {
-  const auto* const found = std::ranges::find(kNames, name, [](const auto& entry) { return entry.first; });
+  const auto* const found = std::ranges::find(kNames, name);
   if (found == std::end(kNames)) return std::nullopt;
-  return found->second;
+  return static_cast<Representation>(found - kNames);
 }
 
 std::string_view to_string(Representation representation) {
-  return std::ranges::find(kNames, representation, [](const auto& entry) { return entry.second; })->first;
+  return kNames[static_cast<std::size_t>(representation)];
 }
 
 }  // namespace tracer

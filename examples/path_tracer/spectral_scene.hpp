@@ -2,15 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <spectile/spectile.hpp>
 #include <string_view>
 #include <vector>
 
-#include "scene.hpp"
+#include "atlas.hpp"
 
 namespace tracer {
-
-using namespace spectile;
 
 /// Ways to carry spectra along paths.
 enum class Representation {
@@ -35,14 +32,10 @@ struct PathSpectra {
   SampledSpectra light, product;  ///< intermediate results
 };
 
-/// Optical constants of a few lanes: a lane each at wavelengths of their own, one for all on bands.
-struct MetalSpectra {
+/// Optical constants of a few lanes. Metal: a lane each at wavelengths of their own, one for all on bands.
+/// Glass: at one wavelength a lane, without k.
+struct OpticalConstants {
   SampledSpectra lambda, eta, k;
-};
-
-/// Index of refraction for one wavelength a lane.
-struct GlassSpectra {
-  SampledSpectra lambda, eta;
 };
 
 /// Spectra of a scene, ready for batches. Shared by all threads.
@@ -54,27 +47,27 @@ class SpectralScene {
   const SpectralAxis& axis() const noexcept { return axis_; }
 
   Result<PathSpectra> make_paths(std::size_t lanes) const;
-  Result<MetalSpectra> make_metals(std::size_t lanes) const;
-  Result<GlassSpectra> make_glasses(std::size_t lanes) const;
+  Result<OpticalConstants> make_metals(std::size_t lanes) const;
+  Result<OpticalConstants> make_glasses(std::size_t lanes) const;
 
   /// Draws wavelengths and looks the lamps up there; throughput 1, radiance 0.
   Result<void> start(LanesView u, PathSpectra& paths) const;
-  /// Reflectances of linear sRGB, for the lanes of `scattering`.
-  Result<void> reflectances(ColorView rgb, const PathSpectra& paths, SampledSpectraSpan scattering) const;
+  /// Reflectances at points of the atlas, for the lanes of `scattering`.
+  Result<void> reflectances(const TexturePoints& at, const PathSpectra& paths,
+                            SampledSpectraSpan scattering) const;
+  const Atlas& atlas() const noexcept { return atlas_; }
   /// Fills eta and k of the first lanes, whose wavelengths are in `lambda`.
-  Result<void> look_up(MetalSpectra& metals, std::size_t lanes) const;
-  Result<void> look_up(GlassSpectra& glasses, std::size_t lanes) const;
+  Result<void> look_up_metals(OpticalConstants& metals, std::size_t lanes) const;
+  Result<void> look_up_glasses(OpticalConstants& glasses, std::size_t lanes) const;
   /// Centre of a band. Units: nm.
   float band_nm(std::size_t k) const { return static_cast<float>((*axis_.bands())[k].centre_nm); }
 
  private:
   enum Constant : std::size_t { kFirstLamp, kSecondLamp, kEta, kAbsorption, kConstants };
-  explicit SpectralScene(SpectralAxis axis, Upsampler upsampler)
-      : axis_(std::move(axis)), upsampler_(std::move(upsampler)) {}
-  Result<void> prepare(const Scene& scene, const std::array<Spectrum, kConstants>& spectra);
+  SpectralScene(SpectralAxis axis, Atlas atlas) : axis_(std::move(axis)), atlas_(std::move(atlas)) {}
 
   SpectralAxis axis_;
-  Upsampler upsampler_;
+  Atlas atlas_;
   Representation representation_ = Representation::kUniform;
   std::optional<WavelengthDistribution> distribution_;
   std::vector<SpectrumSampler> samplers_;             ///< [kConstants], for wavelengths

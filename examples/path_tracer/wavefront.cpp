@@ -6,27 +6,14 @@
 namespace tracer {
 namespace {
 
-/// Views of the first lanes.
+/// A view of the first lanes.
 LanesView first_lanes(const ScalarLanes& lanes, std::size_t count) {
   return {lanes.view().data, count};
-}
-ColorView first_lanes(const ColorLanes& lanes, std::size_t count) {
-  const ColorView all = lanes.view();
-  return {{all.c[0], all.c[1], all.c[2]}, count};
 }
 
 void swap_lanes(SampledSpectra& batch, std::size_t a, std::size_t b) {
   const std::size_t count = batch.axis().count();
   for (std::size_t k = 0; k < count; ++k) std::swap(batch.at(a, k), batch.at(b, k));
-}
-
-void copy_lane(SampledSpectra& batch, std::size_t from, std::size_t to) {
-  const std::size_t count = batch.axis().count();
-  for (std::size_t k = 0; k < count; ++k) batch.at(to, k) = batch.at(from, k);
-}
-
-bool bit_of(const LaneMask& mask, std::size_t lane) {
-  return ((mask[lane / 64] >> (lane % 64)) & 1U) != 0;
 }
 
 }  // namespace
@@ -69,8 +56,7 @@ Result<void> Wavefront::allocate() {
   SPECTILE_ASSIGN(s_, spectra_->make_paths(lanes));
   SPECTILE_ASSIGN(metal_spectra_, spectra_->make_metals(lanes));
   SPECTILE_ASSIGN(glass_spectra_, spectra_->make_glasses(lanes));
-  SPECTILE_ASSIGN(rgb_, ColorLanes::create(lanes));
-  for (ScalarLanes* scalars : {&u_, &density_, &lamp_, &emitted_, &direct_}) {
+  for (ScalarLanes* scalars : {&u_, &density_, &texture_u_, &texture_v_, &lamp_, &emitted_, &direct_}) {
     SPECTILE_ASSIGN(*scalars, ScalarLanes::create(lanes));
   }
   return {};
@@ -97,23 +83,22 @@ void Wavefront::aim(std::uint64_t first, std::size_t count) {
 }
 
 Result<void> Wavefront::run(std::uint64_t first, std::size_t count) {
-  const auto start = std::chrono::steady_clock::now();
+  const Clock all{times_.all};
   aim(first, count);
   live_ = count;
-  SPECTILE_TRY(timed([&] { return spectra_->start(u_, s_); }));
+  {
+    const Clock engine{times_.engine};
+    SPECTILE_TRY(spectra_->start(u_, s_));
+  }
   for (std::uint32_t depth = 0; depth < settings_.max_depth && live_ > 0; ++depth) {
     SPECTILE_TRY(bounce(depth));
   }
-  const double before_film = times_.engine;
-  SPECTILE_TRY(timed([&] {
-    const SamplePositions at = {{x_.data(), count}, {y_.data(), count}, {}};
-    const SampledSpectraView radiance = s_.radiance.view().range(0, count);
-    if (spectra_->on_bands()) return film_->add(at, radiance);
-    return film_->add(at, radiance, s_.wavelengths.view().range(0, count));
-  }));
-  times_.film += times_.engine - before_film;
-  times_.all += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {};
+  const Clock engine{times_.engine};
+  const Clock film{times_.film};
+  const SamplePositions at = {{x_.data(), count}, {y_.data(), count}, {}};
+  const SampledSpectraView radiance = s_.radiance.view().range(0, count);
+  if (spectra_->on_bands()) return film_->add(at, radiance);
+  return film_->add(at, radiance, s_.wavelengths.view().range(0, count));
 }
 
 Result<void> Wavefront::bounce(std::uint32_t depth) {
@@ -122,46 +107,38 @@ Result<void> Wavefront::bounce(std::uint32_t depth) {
   glasses_.clear();
   any_emitted_ = any_direct_ = false;
   for (std::size_t lane = 0; lane < active; ++lane) {
-    for (std::size_t c = 0; c < 3; ++c) rgb_.at(lane, c) = 0;
+    texture_u_[lane] = texture_v_[lane] = 0;
     lamp_[lane] = emitted_[lane] = direct_[lane] = 0;
     density_[lane] = 1;
     if (lane < live_) trace_lane(lane, depth);
   }
-  SPECTILE_TRY(add_emission(active));
-  SPECTILE_TRY(timed([&] {
-    return spectra_->reflectances(first_lanes(rgb_, active), s_, s_.scattering.span().range(0, active));
-  }));
+  const auto throughput = s_.throughput.view().range(0, active);
+  const auto scattering = s_.scattering.span().range(0, active);
+  {
+    const Clock engine{times_.engine};
+    if (any_emitted_) SPECTILE_TRY(add_light(throughput, emitted_));
+    SPECTILE_TRY(spectra_->reflectances({first_lanes(texture_u_, active), first_lanes(texture_v_, active)},
+                                        s_, scattering));
+  }
   SPECTILE_TRY(shade_metals());
   SPECTILE_TRY(shade_glasses(depth));
-  SPECTILE_TRY(add_direct(active));
+  if (any_direct_) {
+    const Clock engine{times_.engine};
+    const auto product = s_.product.span().range(0, active);
+    SPECTILE_TRY(multiply(throughput, scattering, product, kOneThread));
+    SPECTILE_TRY(add_light(product, direct_));
+  }
   return scatter(active, depth);
 }
 
-Result<void> Wavefront::add_emission(std::size_t active) {
-  if (!any_emitted_) return {};
-  return timed([&]() -> Result<void> {
-    const auto light = s_.light.span().range(0, active);
-    const auto radiance = s_.radiance.span().range(0, active);
-    SPECTILE_TRY(lerp(s_.lamps[0].view().range(0, active), s_.lamps[1].view().range(0, active),
-                      first_lanes(lamp_, active), light, kOneThread));
-    SPECTILE_TRY(scale(light, first_lanes(emitted_, active), light, kOneThread));
-    return multiply_add(s_.throughput.view().range(0, active), light, radiance, radiance, kOneThread);
-  });
-}
-
-Result<void> Wavefront::add_direct(std::size_t active) {
-  if (!any_direct_) return {};
-  return timed([&]() -> Result<void> {
-    const auto light = s_.light.span().range(0, active);
-    const auto product = s_.product.span().range(0, active);
-    const auto radiance = s_.radiance.span().range(0, active);
-    SPECTILE_TRY(lerp(s_.lamps[0].view().range(0, active), s_.lamps[1].view().range(0, active),
-                      first_lanes(lamp_, active), light, kOneThread));
-    SPECTILE_TRY(scale(light, first_lanes(direct_, active), light, kOneThread));
-    SPECTILE_TRY(multiply(s_.throughput.view().range(0, active), s_.scattering.view().range(0, active),
-                          product, kOneThread));
-    return multiply_add(product, light, radiance, radiance, kOneThread);
-  });
+Result<void> Wavefront::add_light(SampledSpectraView throughput, const ScalarLanes& factor) {
+  const std::size_t active = throughput.lanes;
+  const auto light = s_.light.span().range(0, active);
+  const auto radiance = s_.radiance.span().range(0, active);
+  SPECTILE_TRY(lerp(s_.lamps[0].view().range(0, active), s_.lamps[1].view().range(0, active),
+                    first_lanes(lamp_, active), light, kOneThread));
+  SPECTILE_TRY(scale(light, first_lanes(factor, active), light, kOneThread));
+  return multiply_add(throughput, light, radiance, radiance, kOneThread);
 }
 
 Result<void> Wavefront::scatter(std::size_t active, std::uint32_t depth) {
@@ -169,17 +146,18 @@ Result<void> Wavefront::scatter(std::size_t active, std::uint32_t depth) {
   for (std::size_t lane = 0; roulette && lane < live_; ++lane) {
     u_[lane] = static_cast<float>(paths_[lane].random(dimension(depth, kRoulette)));
   }
-  SPECTILE_TRY(timed([&]() -> Result<void> {
+  LaneMask ended;
+  {
+    const Clock engine{times_.engine};
     const auto throughput = s_.throughput.span().range(0, active);
     SPECTILE_ASSIGN(
-        const LaneMask ended,
+        ended,
         update_throughput(throughput, s_.scattering.view().range(0, active), first_lanes(density_, active),
                           roulette ? first_lanes(u_, active) : LanesView{}, throughput, kOneThread));
-    for (std::size_t lane = 0; lane < live_; ++lane) {
-      if (bit_of(ended, lane)) paths_[lane].alive = false;
-    }
-    return {};
-  }));
+  }
+  for (std::size_t lane = 0; lane < live_; ++lane) {
+    if (((ended[lane / 64] >> (lane % 64)) & 1U) != 0) paths_[lane].alive = false;
+  }
   compact();
   return {};
 }
@@ -196,12 +174,12 @@ void Wavefront::compact() {
     std::swap(paths_[lane], paths_[last]);
     std::swap(x_[lane], x_[last]);
     std::swap(y_[lane], y_[last]);
-    copy_lane(s_.throughput, last, lane);
-    swap_lanes(s_.radiance, lane, last);
+    for (SampledSpectra* batch : {&s_.throughput, &s_.radiance}) swap_lanes(*batch, lane, last);
     if (spectra_->on_bands()) continue;
-    swap_lanes(s_.wavelengths.lambda_nm, lane, last);
-    swap_lanes(s_.wavelengths.density, lane, last);
-    for (SampledSpectra& lamp : s_.lamps) copy_lane(lamp, last, lane);
+    for (SampledSpectra* batch :
+         {&s_.wavelengths.lambda_nm, &s_.wavelengths.density, &s_.lamps[0], &s_.lamps[1]}) {
+      swap_lanes(*batch, lane, last);
+    }
   }
 }
 

@@ -22,7 +22,8 @@ struct RenderSettings {
   std::uint32_t max_depth = 24;                          ///< surfaces along a path
   std::uint32_t roulette_from = 3;                       ///< bounces before Russian roulette; kNever for none
   float limit = std::numeric_limits<float>::infinity();  ///< of a sample's X, Y and Z
-  bool next_event = true;  ///< false: lamps count where paths hit them by chance
+  bool next_event = true;          ///< false: lamps count where paths hit them by chance
+  std::optional<Bands> kept = {};  ///< bands that the film keeps spectra in, beside XYZ
 };
 
 /// Seconds of a worker, or of all together.
@@ -30,6 +31,13 @@ struct Times {
   double engine = 0;  ///< in calls of the library
   double film = 0;    ///< ... of which Film::add
   double all = 0;
+};
+
+/// Adds the seconds of its life to a sum.
+struct Clock {
+  double& sum;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  ~Clock() { sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 };
 
 class Wavefront {
@@ -70,16 +78,13 @@ class Wavefront {
   void trace_lane(std::size_t lane, std::uint32_t depth);
   void shade_diffuse(std::size_t lane, const Hit& hit, std::uint32_t depth);
   void sample_lamp(std::size_t lane, const Hit& hit, std::uint32_t depth);
-  Result<void> add_emission(std::size_t active);
-  Result<void> add_direct(std::size_t active);
+  /// Adds to the radiance: the lane's lamp times its factor, times a throughput.
+  Result<void> add_light(SampledSpectraView throughput, const ScalarLanes& factor);
   Result<void> shade_metals();
   Result<void> shade_glasses(std::uint32_t depth);
   void choose_wavelengths(std::uint32_t depth);
   Result<void> scatter(std::size_t active, std::uint32_t depth);
   void compact();
-  /// Runs library calls by the clock.
-  template <class Calls>
-  Result<void> timed(Calls&& calls);
 
   const Scene* scene_;
   const SpectralScene* spectra_;
@@ -92,23 +97,14 @@ class Wavefront {
   std::vector<float> x_, y_;
   std::size_t live_ = 0;  ///< the first lanes, whose paths go on
   PathSpectra s_;
-  MetalSpectra metal_spectra_;
-  GlassSpectra glass_spectra_;
+  OpticalConstants metal_spectra_, glass_spectra_;
   std::vector<SpecularLane> metals_, glasses_;
   LaneMask glass_mask_;
-  ColorLanes rgb_;
   ScalarLanes u_, density_;
-  ScalarLanes lamp_;              ///< 0 or 1
-  ScalarLanes emitted_, direct_;  ///< factors of that lamp's radiance
+  ScalarLanes texture_u_, texture_v_;  ///< points of the atlas; any where there is no matt surface
+  ScalarLanes lamp_;                   ///< 0 or 1
+  ScalarLanes emitted_, direct_;       ///< factors of that lamp's radiance
   bool any_emitted_ = false, any_direct_ = false;
 };
-
-template <class Calls>
-Result<void> Wavefront::timed(Calls&& calls) {
-  const auto start = std::chrono::steady_clock::now();
-  auto result = std::forward<Calls>(calls)();
-  times_.engine += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
-}
 
 }  // namespace tracer
