@@ -63,9 +63,12 @@ void TileCache::evict(std::size_t bytes) noexcept {
   if (bytes_ + bytes <= max_bytes_) return;
   // Waiting for readers is worth more than one tile.
   const std::size_t wanted = bytes + max_bytes_ / 16;
+  // Readers may use all tiles again and again: two rounds, then whatever comes.
+  std::size_t spared = 2 * tiles_.size();
   while (!tiles_.empty() && bytes_ + wanted > max_bytes_) {
     hand_ = hand_ >= tiles_.size() ? 0 : hand_;
-    if (tiles_[hand_]->home->used.exchange(false, std::memory_order_relaxed)) {
+    if (spared > 0 && tiles_[hand_]->home->used.exchange(false, std::memory_order_relaxed)) {
+      --spared;
       ++hand_;
       continue;
     }
@@ -87,7 +90,8 @@ Result<void> TileCache::insert(TileHome& home, FloatBuffer texels, const Wanted*
         auto tile = std::make_unique<CachedTile>();
         tile->texels = std::move(texels);
         tile->home = &home;
-        tiles_.reserve(tiles_.size() + 1);
+        // Room for all first: nothing may fail once tiles have left their homes.
+        if (tiles_.size() == tiles_.capacity()) tiles_.reserve(2 * tiles_.size() + 16);
         leaving_.reserve(tiles_.capacity());
         evict(tile->bytes());
         bytes_ += tile->bytes();
