@@ -87,7 +87,7 @@ void store_taps(const TextureTexels& out, std::size_t at, std::size_t n, const T
 void texture_places(const TextureTexels& out, const TextureCoordinates& at, const TextureShape& shape,
                     std::size_t n) noexcept {
   const auto taps = static_cast<std::size_t>(shape.taps);
-  const auto row = [&](std::int32_t level) { return shape.levels + level * 4; };
+  const auto row = [&](std::int32_t level) { return shape.levels + std::ptrdiff_t{4} * level; };
   for (std::size_t i = 0; i < n; ++i) {
     const float level = level_of(at, shape.count, i);
     if (!std::isfinite(at.u[i]) || !std::isfinite(at.v[i]) || std::isnan(level)) {
@@ -99,7 +99,8 @@ void texture_places(const TextureTexels& out, const TextureCoordinates& at, cons
       continue;
     }
     if (shape.taps != TextureTaps::kTrilinear) {
-      store_taps(out, i, n, shape, row(static_cast<std::int32_t>(level + 0.5F)), at.u[i], at.v[i], 1.0F);
+      store_taps(out, i, n, shape, row(static_cast<std::int32_t>(std::floor(level + 0.5F))), at.u[i], at.v[i],
+                 1.0F);
       continue;
     }
     const auto low = static_cast<std::int32_t>(level);

@@ -41,16 +41,18 @@ double CombinedSpectrum::operator()(double lambda_nm) const noexcept {
   return sum;
 }
 
-double CombinedSpectrum::max_value() const noexcept {
+double CombinedSpectrum::max_value() const {
   std::vector<double> places;
-  for (double nm = kFirstVisibleNm; nm <= kLastVisibleNm; ++nm) places.push_back(nm);
+  constexpr int kFirst = static_cast<int>(kFirstVisibleNm);
+  constexpr int kLast = static_cast<int>(kLastVisibleNm);
+  for (int nm = kFirst; nm <= kLast; ++nm) places.push_back(nm);
   add_breaks(Spectrum(*this), places);
   double largest = (*this)(places.front());
   for (const double nm : places) largest = std::max(largest, (*this)(nm));
   return largest;
 }
 
-double CombinedSpectrum::integral(double first_nm, double last_nm) const noexcept {
+double CombinedSpectrum::integral(double first_nm, double last_nm) const {
   double sum = 0;
   for (const Term& term : *terms_) {
     if (term.of.size() == 1) {
@@ -165,7 +167,7 @@ Result<Spectrum> sampled_function(const std::function<double(double lambda_nm)>&
   }
   std::vector<double> wavelengths;
   std::vector<double> values;
-  for (double i = 0; i <= steps; ++i) {
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
     wavelengths.push_back(std::min(first_nm + i * step_nm, last_nm));
     values.push_back(function(wavelengths.back()));
   }

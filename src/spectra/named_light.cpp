@@ -27,7 +27,7 @@ Result<MeasuredSpectrum> tabulated(const CombinedSpectrum& light) {
   for (int nm = kFirstTabulatedNm; nm <= kLastNm; ++nm) places.push_back(nm);
   add_breaks(Spectrum(light), places);
   std::ranges::sort(places);
-  places.erase(std::ranges::unique(places).begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   std::vector<double> wavelengths;
   std::vector<double> values;
   for (const double nm : places) {

@@ -15,7 +15,10 @@ void add_breaks(const ConstantSpectrum& /*unused*/, std::vector<double>& /*unuse
 void add_breaks(const BlackbodySpectrum& s, std::vector<double>& breaks) {
   // Octaves about the peak: over a very wide range bisection alone would not find it.
   double nm = kWienDisplacement.value() * 1e9 / s.temperature_k() / 64;
-  for (int octave = 0; octave < 50; ++octave, nm *= 2) breaks.push_back(nm);
+  for (int octave = 0; octave < 50; ++octave) {
+    breaks.push_back(nm);
+    nm *= 2;
+  }
 }
 void add_breaks(const PiecewiseLinearSpectrum& s, std::vector<double>& breaks) {
   breaks.insert(breaks.end(), s.wavelengths_nm().begin(), s.wavelengths_nm().end());
@@ -116,15 +119,16 @@ void add_breaks(const Spectrum& spectrum, std::vector<double>& breaks) {
   std::visit([&](const auto& kind) { add_breaks(kind, breaks); }, spectrum.kind());
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): no alternative is ever without a value
 double Spectrum::operator()(double lambda_nm) const noexcept {
   return std::visit([&](const auto& s) { return s(lambda_nm); }, kind_);
 }
 
-double Spectrum::max_value() const noexcept {
+double Spectrum::max_value() const {
   return std::visit([](const auto& s) { return s.max_value(); }, kind_);
 }
 
-double Spectrum::integral(double first_nm, double last_nm) const noexcept {
+double Spectrum::integral(double first_nm, double last_nm) const {
   return std::visit([&](const auto& s) { return s.integral(first_nm, last_nm); }, kind_);
 }
 
